@@ -1,0 +1,25 @@
+"""What moved: Algorithm 1, its baseline, and how far they are from the truth.
+
+Arrays in, results out: nothing here knows a file, a viewer or a command line.
+"""
+
+from estimator.cloud import CloudError, CloudPair
+from estimator.estimate import estimate_scene_flow
+from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow
+from estimator.methods import method_names
+from estimator.parameters import PARAMETER_INFO, ParameterError, ParameterInfo, Parameters
+
+__all__ = [
+    "PARAMETER_INFO",
+    "CloudError",
+    "CloudPair",
+    "ClusterResult",
+    "IcpRound",
+    "Label",
+    "ParameterError",
+    "ParameterInfo",
+    "Parameters",
+    "SceneFlow",
+    "estimate_scene_flow",
+    "method_names",
+]

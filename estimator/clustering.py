@@ -1,0 +1,37 @@
+"""Lines 1-4 of Algorithm 1: merge the clouds, cluster them, split each cluster again."""
+
+import numpy as np
+from sklearn.cluster import HDBSCAN
+
+from estimator.cloud import CloudPair
+from estimator.flow import Cluster
+from estimator.parameters import Parameters
+
+
+def clusters_of(pair: CloudPair, parameters: Parameters) -> list[Cluster]:
+    """Cluster the merged clouds with HDBSCAN.
+
+    The target's points come first in the merged cloud: ties in HDBSCAN depend on the order, so
+    the order is fixed. Points that are not finite belong to no cluster. Fewer points than
+    HDBSCAN needs give no cluster.
+    """
+    finite_target = np.flatnonzero(np.isfinite(pair.target).all(axis=1))
+    finite_source = np.flatnonzero(np.isfinite(pair.source).all(axis=1))
+    merged = np.vstack([pair.target[finite_target], pair.source[finite_source]])
+    if len(merged) < max(parameters.min_cluster_size, parameters.min_samples or 1, 2):
+        return []
+    labels = HDBSCAN(
+        min_cluster_size=parameters.min_cluster_size,
+        min_samples=parameters.min_samples,
+        allow_single_cluster=parameters.allow_single_cluster,
+        copy=True,
+    ).fit_predict(merged)
+    labels_target, labels_source = np.split(labels, [len(finite_target)])
+    return [
+        Cluster(
+            index,
+            source=finite_source[labels_source == index],
+            target=finite_target[labels_target == index],
+        )
+        for index in range(labels.max() + 1)
+    ]

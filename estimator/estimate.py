@@ -1,0 +1,32 @@
+"""The one call that everything else makes."""
+
+from numpy.typing import ArrayLike
+
+from estimator.cloud import HasPoints, cloud_pair
+from estimator.flow import SceneFlow
+from estimator.methods import method
+from estimator.parameters import Parameters
+
+
+def estimate_scene_flow(
+    source: ArrayLike | HasPoints,
+    target: ArrayLike | HasPoints,
+    interval: float,
+    parameters: Parameters,
+) -> SceneFlow:
+    """Estimate what moved between two clouds, with the method that the parameters name.
+
+    Args:
+        source: (N, 3) metres, P_{k-n}, or a cloud of a recording; N may be 0. Points that are not
+            finite are Unassigned.
+        target: (M, 3) metres, P_k, in the same frame, likewise.
+        interval: seconds between the two stamps.
+        parameters: thresholds and method; `parameters.n` is not used, the caller chose the pair.
+
+    Returns:
+        A label and a velocity for each source point, and the story of each cluster.
+
+    Raises:
+        CloudError: a cloud of the wrong shape, or an interval not above zero.
+    """
+    return method(parameters.method)(cloud_pair(source, target, interval), parameters)

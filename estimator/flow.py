@@ -1,0 +1,154 @@
+"""What an estimate returns: a label and a velocity per source point, and a story per cluster."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Indices = NDArray[np.intp]
+
+
+class Label(IntEnum):
+    """What a source point, or a cluster, was found to be."""
+
+    UNASSIGNED = 0
+    STATIONARY = 1
+    MOVING = 2
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """A cluster of the merged cloud.
+
+    Attributes:
+        index: its number, from 0.
+        source: indices of its points in the source, P_{k-n}^C.
+        target: indices of its points in the target, P_k^C.
+    """
+
+    index: int
+    source: Indices
+    target: Indices
+
+
+@dataclass(frozen=True)
+class IcpRound:
+    """One turn of Algorithm 1's loop over a cluster.
+
+    Attributes:
+        source_size: source points that went in.
+        target_size: target points that went in.
+        fitness: inlier correspondences / source points.
+        inlier_rmse: root mean square distance of the inliers, metres.
+        transformation: (4, 4), takes source points onto the target.
+        mean_displacement: mean over the source points of how far it moves them, metres.
+        inlier_source: indices into the source of the corresponding points.
+        inlier_target: indices into the target of the corresponding points.
+    """
+
+    source_size: int
+    target_size: int
+    fitness: float
+    inlier_rmse: float
+    transformation: NDArray[np.float64]
+    mean_displacement: float
+    inlier_source: Indices
+    inlier_target: Indices
+
+
+@dataclass(frozen=True)
+class ClusterResult:
+    """What became of one cluster, and why.
+
+    Attributes:
+        index: the cluster's number, as in `SceneFlow.cluster`.
+        source: indices of all its source points.
+        target: indices of all its target points.
+        remaining: indices of the source points left after the last removal; `label` is theirs.
+        rounds: every ICP round in order, empty where the cluster was skipped at once. The inliers
+            of a round left the cluster wherever another round follows or the label is UNASSIGNED.
+        label: of the remaining points. Inliers removed on the way are stationary.
+        velocity: (len(remaining), 3) m/s, NaN where `label` is not MOVING.
+        reason: why it has this label, in words.
+    """
+
+    index: int
+    source: Indices
+    target: Indices
+    remaining: Indices
+    rounds: tuple[IcpRound, ...]
+    label: Label
+    velocity: NDArray[np.float64]
+    reason: str
+
+    @property
+    def fitness(self) -> float:
+        """Fitness of the last round, NaN where there was none."""
+        return self.rounds[-1].fitness if self.rounds else float("nan")
+
+    @property
+    def mean_displacement(self) -> float:
+        """Mean displacement of the last round in metres, NaN where there was none."""
+        return self.rounds[-1].mean_displacement if self.rounds else float("nan")
+
+    @property
+    def removed(self) -> Indices:
+        """Indices of the source points that were removed as inliers."""
+        return np.setdiff1d(self.source, self.remaining)
+
+
+@dataclass(frozen=True)
+class SceneFlow:
+    """The flow of one pair.
+
+    Attributes:
+        label: (N,) `Label` of each source point.
+        velocity: (N, 3) m/s in the clouds' frame, NaN where the label is not MOVING.
+        cluster: (N,) cluster index of each source point, -1 for none.
+        clusters: a result per cluster, in the order of their indices.
+    """
+
+    label: NDArray[np.int64]
+    velocity: NDArray[np.float64]
+    cluster: NDArray[np.int64]
+    clusters: tuple[ClusterResult, ...]
+
+    @property
+    def moving(self) -> NDArray[np.bool_]:
+        """(N,) whether a source point has a flow."""
+        return self.label == Label.MOVING
+
+
+def cluster_result(
+    cluster: Cluster,
+    remaining: Indices,
+    rounds: list[IcpRound],
+    label: Label,
+    reason: str,
+    velocity: NDArray[np.float64] | None = None,
+) -> ClusterResult:
+    """Close a cluster's story; `velocity` (len(remaining), 3) in m/s is given where it moves."""
+    return ClusterResult(
+        index=cluster.index,
+        source=cluster.source,
+        target=cluster.target,
+        remaining=remaining,
+        rounds=tuple(rounds),
+        label=label,
+        velocity=np.full((len(remaining), 3), np.nan) if velocity is None else velocity,
+        reason=f"{label.name.capitalize()}: {reason}.",
+    )
+
+
+def scene_flow(source_size: int, clusters: list[ClusterResult]) -> SceneFlow:
+    """Put the clusters' results together into labels and velocities of `source_size` points."""
+    label = np.full(source_size, Label.UNASSIGNED, dtype=np.int64)
+    velocity = np.full((source_size, 3), np.nan)
+    cluster = np.full(source_size, -1, dtype=np.int64)
+    for result in clusters:
+        cluster[result.source] = result.index
+        label[result.removed] = Label.STATIONARY
+        label[result.remaining] = result.label
+        velocity[result.remaining] = result.velocity
+    return SceneFlow(label, velocity, cluster, tuple(clusters))

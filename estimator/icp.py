@@ -1,0 +1,69 @@
+"""Point-to-point ICP by Open3D."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import open3d as o3d
+from numpy.typing import NDArray
+
+from estimator.flow import Indices
+
+_POINT_TO_POINT = o3d.pipelines.registration.TransformationEstimationPointToPoint()
+# Open3D's own defaults, named here because fitness depends on where ICP stops.
+_CRITERIA = o3d.pipelines.registration.ICPConvergenceCriteria(
+    relative_fitness=1e-6, relative_rmse=1e-6, max_iteration=30
+)
+
+
+@dataclass(frozen=True)
+class Registration:
+    """How a source was laid onto a target.
+
+    Attributes:
+        transformation: (4, 4), takes source points onto the target.
+        fitness: inlier correspondences / source points.
+        inlier_rmse: root mean square distance of the inliers, metres.
+        inlier_source: rows of the source that have a correspondence.
+        inlier_target: rows of the target that they correspond to, in the same order.
+    """
+
+    transformation: NDArray[np.float64]
+    fitness: float
+    inlier_rmse: float
+    inlier_source: Indices
+    inlier_target: Indices
+
+
+def register(
+    source: NDArray[np.float64], target: NDArray[np.float64], max_correspondence_distance: float
+) -> Registration:
+    """Find the rigid motion that takes `source` onto `target`, from the identity.
+
+    The source is P_{k-n} and the target P_k, as the paper's text says; its pseudocode lists the
+    arguments the other way round.
+
+    Args:
+        source: (N, 3) metres, N > 0.
+        target: (M, 3) metres, M > 0.
+        max_correspondence_distance: metres.
+    """
+    result = o3d.pipelines.registration.registration_icp(
+        _point_cloud(source),
+        _point_cloud(target),
+        max_correspondence_distance,
+        np.eye(4),
+        _POINT_TO_POINT,
+        _CRITERIA,
+    )
+    correspondences = np.asarray(result.correspondence_set, dtype=np.intp).reshape(-1, 2)
+    return Registration(
+        transformation=np.array(result.transformation),
+        fitness=float(result.fitness),
+        inlier_rmse=float(result.inlier_rmse),
+        inlier_source=correspondences[:, 0],
+        inlier_target=correspondences[:, 1],
+    )
+
+
+def _point_cloud(points: NDArray[np.float64]) -> o3d.geometry.PointCloud:
+    return o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))

@@ -1,0 +1,50 @@
+"""What Algorithm 1 and the baseline share: the size test and one ICP round over a cluster."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from estimator.cloud import CloudPair
+from estimator.flow import IcpRound, Indices
+from estimator.icp import register
+from estimator.parameters import Parameters
+
+MIN_POINTS = 3
+
+
+def too_few_points(source: Indices, target: Indices, parameters: Parameters) -> str | None:
+    """Say why a cluster has too few points to go on with, None where it has enough.
+
+    N_min skips a cluster when both clouds are below it (AND, as in the pseudocode; the prose
+    reads like OR). A rigid motion needs three points on either side whatever N_min is.
+    """
+    sizes = f"{len(source)} source and {len(target)} target points"
+    if len(source) < parameters.n_min and len(target) < parameters.n_min:
+        return f"{sizes}, both below N_min {parameters.n_min}"
+    if min(len(source), len(target)) < MIN_POINTS:
+        return f"{sizes}, and ICP needs {MIN_POINTS} in each"
+    return None
+
+
+def icp_round(
+    source: Indices, target: Indices, pair: CloudPair, parameters: Parameters
+) -> tuple[IcpRound, NDArray[np.float64]]:
+    """Lines 8-12 of Algorithm 1: ICP, its transformation, and the displacements D^C it causes.
+
+    Returns:
+        The round, and D^C (len(source), 3) in metres.
+    """
+    points = pair.source[source]
+    icp = register(points, pair.target[target], parameters.max_correspondence_distance)
+    R, t = icp.transformation[:3, :3], icp.transformation[:3, 3]
+    displacement = points @ R.T + t - points
+    result = IcpRound(
+        source_size=len(source),
+        target_size=len(target),
+        fitness=icp.fitness,
+        inlier_rmse=icp.inlier_rmse,
+        transformation=icp.transformation,
+        mean_displacement=float(np.linalg.norm(displacement, axis=1).mean()),
+        inlier_source=source[icp.inlier_source],
+        inlier_target=target[icp.inlier_target],
+    )
+    return result, displacement
