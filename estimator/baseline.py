@@ -22,6 +22,4 @@ def _move(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> ClusterR
         f"mean displacement {current.mean_displacement:.3f} m"
     )
     velocity = displacement / pair.interval
-    return cluster_result(
-        cluster, cluster.source, [current], Label.MOVING, reason, velocity
-    )
+    return cluster_result(cluster, cluster.source, [current], Label.MOVING, reason, velocity)

@@ -37,7 +37,9 @@ class CloudPair:
     interval: float
 
 
-def cloud_pair(source: ArrayLike | HasPoints, target: ArrayLike | HasPoints, interval: float) -> CloudPair:
+def cloud_pair(
+    source: ArrayLike | HasPoints, target: ArrayLike | HasPoints, interval: float
+) -> CloudPair:
     """Check the input of an estimate and bring it into one form.
 
     Args:
@@ -49,7 +51,9 @@ def cloud_pair(source: ArrayLike | HasPoints, target: ArrayLike | HasPoints, int
         CloudError: a wrong shape or type, or an interval that is not a finite number above zero.
     """
     if not math.isfinite(interval) or interval <= 0:
-        raise CloudError(f"The interval must be a finite number of seconds above 0, got {interval!r}.")
+        raise CloudError(
+            f"The interval must be a finite number of seconds above 0, got {interval!r}."
+        )
     return CloudPair(_points("source", source), _points("target", target), float(interval))
 
 

@@ -116,9 +116,7 @@ class Parameters:
             _check(name, info, getattr(self, name))
 
 
-PARAMETER_INFO: dict[str, ParameterInfo] = {
-    f.name: f.metadata["info"] for f in fields(Parameters)
-}
+PARAMETER_INFO: dict[str, ParameterInfo] = {f.name: f.metadata["info"] for f in fields(Parameters)}
 
 _OPTIONAL = {f.name for f in fields(Parameters) if f.default is None}
 _INTEGERS = {"n", "n_min", "min_cluster_size", "min_samples"}
@@ -127,7 +125,9 @@ _INTEGERS = {"n", "n_min", "min_cluster_size", "min_samples"}
 def _check(name: str, info: ParameterInfo, value: object) -> None:
     if name == "method":
         if value not in method_names():
-            raise ParameterError(f"method must be one of {', '.join(method_names())}, got {value!r}.")
+            raise ParameterError(
+                f"method must be one of {', '.join(method_names())}, got {value!r}."
+            )
         return
     if name == "allow_single_cluster":
         if not isinstance(value, bool):

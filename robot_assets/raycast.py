@@ -1,0 +1,59 @@
+"""Where rays meet a triangle mesh: trimesh with Embree behind it."""
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from trimesh.ray.ray_pyembree import RayMeshIntersector
+
+_STEP = 1e-5  # metres past a surface, above Embree's single precision at a few metres
+_MAX_SURFACES = 8
+
+
+class RayCaster:
+    """Casts rays against one mesh, from outside: surfaces seen from behind are passed through.
+
+    A sensor mounted on a link may sit inside the link's coarse collision mesh; its rays must leave
+    that mesh unhindered and still meet every other one.
+
+    Args:
+        mesh: triangles with outward normals, metres.
+    """
+
+    def __init__(self, mesh: trimesh.Trimesh) -> None:
+        self._intersector = RayMeshIntersector(mesh)
+        self._normals = np.asarray(mesh.face_normals)
+        self._corners = np.asarray(mesh.triangles)[:, 0]
+
+    def cast(
+        self, origins: NDArray[np.float64], directions: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Find the first front face along each ray.
+
+        Args:
+            origins: (N, 3) metres.
+            directions: (N, 3) unit vectors.
+
+        Returns:
+            Distance along each ray in metres, inf where it meets nothing, and the index of the
+            triangle that it meets, -1 likewise: (N,) each.
+        """
+        distance = np.full(len(origins), np.inf)
+        triangle = np.full(len(origins), -1, dtype=np.int64)
+        travelled = np.zeros(len(origins))
+        live = np.arange(len(origins))
+        for _ in range(_MAX_SURFACES):
+            if len(live) == 0:
+                break
+            start = origins[live] + travelled[live, None] * directions[live]
+            hit = np.asarray(self._intersector.intersects_first(start, directions[live]))
+            live, start, hit = live[hit >= 0], start[hit >= 0], hit[hit >= 0]
+            slope = np.einsum("ij,ij->i", self._normals[hit], directions[live])
+            gap = np.einsum("ij,ij->i", self._normals[hit], self._corners[hit] - start)
+            step = np.divide(gap, slope, out=np.zeros_like(gap), where=np.abs(slope) > 1e-12)
+            travelled[live] += np.maximum(step, 0.0)
+            front = slope < 0
+            distance[live[front]] = travelled[live[front]]
+            triangle[live[front]] = hit[front]
+            live = live[~front]
+            travelled[live] += _STEP
+        return distance, triangle

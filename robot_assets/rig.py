@@ -1,0 +1,151 @@
+"""A rig: which sensors a robot wears, and where. Read from a TOML file."""
+
+import math
+import tomllib
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_assets.sensor_model import SensorModel, unit
+from robot_assets.table import Table, TableError
+
+
+class RigError(Exception):
+    """A rig file that cannot be used; the sentence names the file and the key."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """One sensor of a rig.
+
+    Attributes:
+        name: unique in the rig, such as "elbow/3".
+        ring: name of its ring, "" for a single sensor.
+        link: the link it is fixed to.
+        T_link_sensor: (4, 4), takes points of its optical frame into the link's.
+    """
+
+    name: str
+    ring: str
+    link: str
+    T_link_sensor: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Rig:
+    """The sensors of a robot.
+
+    Attributes:
+        name: what to call it on screen.
+        model: the type of all its sensors.
+        sensors: in the order of the file, rings first.
+    """
+
+    name: str
+    model: SensorModel
+    sensors: tuple[Sensor, ...]
+
+    def check_links(self, links: tuple[str, ...], robot: str) -> None:
+        """Raise RigError where a sensor is fixed to a link that the robot has not."""
+        for sensor in self.sensors:
+            if sensor.link not in links:
+                raise RigError(
+                    f"The rig '{self.name}' fixes sensor {sensor.name} to link {sensor.link}, "
+                    f"which the robot {robot} has not; it has {', '.join(links)}."
+                )
+
+
+def load_rig(path: str | Path | None = None) -> Rig:
+    """Load a rig from a TOML file; None is the paper's rig of 24 sensors on a Panda.
+
+    Raises:
+        RigError: the file is not there or not TOML, or a key is missing, unknown or wrong.
+    """
+    where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
+    try:
+        content = tomllib.loads(where.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise RigError(f"{where} cannot be read as a rig file: {error}.") from error
+    try:
+        return _rig(Table(content))
+    except TableError as error:
+        raise RigError(f"{where}: {error}") from error
+
+
+def _rig(table: Table) -> Rig:
+    name = table.text("name")
+    model = _sensor_model(table.table("sensor_model"))
+    sensors: list[Sensor] = []
+    for ring in table.tables("rings"):
+        sensors += _ring(ring)
+    for single in table.tables("sensors"):
+        sensors.append(_single(single))
+    table.finish()
+    if not sensors:
+        raise TableError("there must be at least one of [[rings]] and [[sensors]], found none.")
+    names = [sensor.name for sensor in sensors]
+    if doubled := sorted({n for n in names if names.count(n) > 1}):
+        raise TableError(f"two sensors have the name {doubled[0]!r}; names must be unique.")
+    return Rig(name, model, tuple(sensors))
+
+
+def _sensor_model(table: Table) -> SensorModel:
+    model = SensorModel(
+        name=table.text("name"),
+        rows=table.integer("rows", low=1, high=64),
+        columns=table.integer("columns", low=1, high=64),
+        field_of_view=math.radians(table.number("field_of_view_deg", low=1.0, high=170.0)),
+        min_range=table.number("min_range_m", low=0.0, high=100.0),
+        max_range=table.number("max_range_m", low=0.001, high=100.0),
+        distance=table.choice("distance", ("perpendicular", "radial")),  # type: ignore[arg-type]
+        reading_order=table.choice("reading_order", ("row_major", "column_major")),  # type: ignore[arg-type]
+        flip_vertical=table.boolean("flip_vertical"),
+        flip_horizontal=table.boolean("flip_horizontal"),
+    )
+    table.finish()
+    return model
+
+
+def _ring(table: Table) -> list[Sensor]:
+    name, link = table.text("name"), table.text("link")
+    count = table.integer("count", low=1, high=1000)
+    radius = table.number("radius_m", low=0.0, high=10.0)
+    centre = table.vector("centre_m")
+    axis = unit(table.vector("axis", nonzero=True))
+    first = table.direction_across("first_direction", axis)
+    table.finish()
+    side = np.cross(axis, first)
+    sensors: list[Sensor] = []
+    for i, angle in enumerate(2 * np.pi * np.arange(count) / count):
+        outward = np.cos(angle) * first + np.sin(angle) * side
+        pose = look(centre + radius * outward, outward, axis)
+        sensors.append(Sensor(f"{name}/{i}", name, link, pose))
+    return sensors
+
+
+def _single(table: Table) -> Sensor:
+    name, link = table.text("name"), table.text("link")
+    position = table.vector("position_m")
+    forward = unit(table.vector("forward", nonzero=True))
+    up = table.direction_across("up", forward)
+    table.finish()
+    return Sensor(name, "", link, look(position, forward, up))
+
+
+def look(
+    position: NDArray[np.float64], forward: NDArray[np.float64], up: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Pose (4, 4) of an optical frame at `position`, z along `forward`, y opposite to `up`.
+
+    `forward` and `up` are unit vectors at a right angle.
+    """
+    pose: NDArray[np.float64] = np.eye(4)
+    pose[:3, 0] = np.cross(forward, up)
+    pose[:3, 1] = -up
+    pose[:3, 2] = forward
+    pose[:3, 3] = position
+    return pose
