@@ -1,0 +1,30 @@
+# The commands of Tofscope. DEVELOPMENT.md describes them.
+
+BIN := .venv/bin
+STAMP := .venv/.set-up
+
+.PHONY: run test setup samples
+
+# Open the app; ARGS goes to `tofscope view`, as in: make run ARGS="my_recording.mcap --port 9000"
+run: setup
+	@$(BIN)/tofscope view $(ARGS)
+
+# Lint, format, types, tests.
+test: setup
+	@command -v chromium > /dev/null || \
+		tools/install_system_packages.sh "The tests of the app drive a browser" chromium
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/pyright
+	$(BIN)/pytest
+
+# Everything that run and test need; skipped while nothing has changed.
+setup: $(STAMP)
+
+$(STAMP): pyproject.toml constraints.txt tools/setup.sh
+	@tools/setup.sh
+	@touch $@
+
+# Make the shipped recordings again.
+samples: setup
+	$(BIN)/tofscope simulate all --speed 0.25 --trial 1 --out recordings/samples
