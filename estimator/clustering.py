@@ -24,7 +24,7 @@ def clusters_of(pair: CloudPair, parameters: Parameters) -> list[Cluster]:
         min_cluster_size=parameters.min_cluster_size,
         min_samples=parameters.min_samples,
         allow_single_cluster=parameters.allow_single_cluster,
-        copy=True,
+        copy=True,  # pyright: ignore[reportArgumentType] (inferred from a default of "warn")
     ).fit_predict(merged)
     labels_target, labels_source = np.split(labels, [len(finite_target)])
     return [

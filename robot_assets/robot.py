@@ -79,7 +79,7 @@ class Robot:
         )
 
     def outside_limits(self, positions: Mapping[str, float], tolerance: float = 1e-3) -> list[str]:
-        """Say, in a sentence each, which joints are beyond their limits by more than `tolerance`."""
+        """Say, in a sentence each, which joints are beyond their limits by over `tolerance`."""
         return [
             f"{name} is at {positions[name]:.3f}, outside its limits {low:.3f} to {high:.3f}."
             for name, (low, high) in self.joint_limits.items()
@@ -234,7 +234,7 @@ def _coloured(loaded: Any) -> trimesh.Trimesh:  # noqa: ANN401 (trimesh.load giv
     """Flatten a loaded file into one mesh whose materials have become vertex colours."""
     parts: list[trimesh.Trimesh] = []
     for mesh in [loaded] if isinstance(loaded, trimesh.Trimesh) else loaded.dump():
-        material = getattr(mesh.visual, "material", mesh.visual)
+        material: Any = getattr(mesh.visual, "material", mesh.visual)
         colours = np.tile(material.main_color, (len(mesh.vertices), 1))
         parts.append(
             trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=colours, process=False)

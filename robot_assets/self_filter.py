@@ -67,7 +67,7 @@ class SelfFilter:
 def _zone_steps(
     directions: NDArray[np.float64], offset: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """How far directions move by `offset` (rows, columns) of a zone; both step sizes are uniform."""
+    """How far directions move by `offset` (rows, columns) of a zone, whose steps are uniform."""
     down = directions[:, 1:2, :1] - directions[:, :1, :1]
     right = directions[:, :1, 1:2] - directions[:, :1, :1]
     return offset[0] * down + offset[1] * right
