@@ -1,0 +1,182 @@
+"""What each topic of a file is used as: decided by type and content, names are hints."""
+
+import math
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from recordings.decoding import Decoder
+from recordings.errors import RecordingError
+from recordings.mcap_file import ChannelInfo, McapFile
+
+ZONES = (8, 8)
+_DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
+_STATUS_ENCODINGS = ("8UC1", "mono8")
+_TRUTH_NAMES = ("target", "truth")
+
+
+class Use(StrEnum):
+    """What a topic is used as."""
+
+    DEPTH = "sensor ranges"
+    STATUS = "sensor status"
+    CAMERA_INFO = "sensor intrinsics"
+    TRANSFORMS = "poses"
+    STATIC_TRANSFORMS = "fixed poses"
+    JOINTS = "joint positions"
+    ROBOT = "robot description"
+    VELOCITY = "truth: velocity"
+    POSE = "truth: pose"
+    POINTS = "truth: points"
+    NOTHING = "not used"
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A channel and its use.
+
+    Attributes:
+        channel: of the file.
+        use: what it is used as.
+        why_not: why it is not used, "" where it is.
+        frame: frame_id of its first message, "" where its type has no header.
+    """
+
+    channel: ChannelInfo
+    use: Use
+    why_not: str = ""
+    frame: str = ""
+
+    @property
+    def name(self) -> str:
+        """The topic's name."""
+        return self.channel.topic
+
+
+def topics_of(file: McapFile, decoder: Decoder) -> list[Topic]:
+    """Decide for every channel of a file what it is used as, in the natural order of topics."""
+    channels = sorted(file.channels, key=lambda c: natural_key(c.topic))
+    topics = [_topic(channel, file, decoder) for channel in channels]
+    for use in (Use.VELOCITY, Use.POSE, Use.POINTS):
+        topics = _one_truth(topics, use)
+    return topics
+
+
+def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
+    """Keep one topic for a use: the one named as truth, or the only one that there is."""
+    candidates = [topic for topic in topics if topic.use is use]
+    named = [topic for topic in candidates if _named_truth(topic.name)]
+    if len(candidates) == 1 or len(named) == 1:
+        chosen = (named or candidates)[0]
+        why_not = f"{chosen.name} is used as the {use}"
+    else:
+        chosen = None
+        why_not = f"{len(candidates)} topics could be the {use}; name one /target or /truth"
+    return [
+        topic if topic.use is not use or topic is chosen else replace(topic, use=Use.NOTHING, why_not=why_not)
+        for topic in topics
+    ]
+
+
+def natural_key(text: str) -> list[tuple[int, int, str]]:
+    """Sort key that puts "ring/10" behind "ring/9"."""
+    key: list[tuple[int, int, str]] = []
+    for digit, run in _runs(text):
+        key.append((0, int(run), "") if digit else (1, 0, run))
+    return key
+
+
+def _runs(text: str) -> list[tuple[bool, str]]:
+    runs: list[tuple[bool, str]] = []
+    for character in text:
+        digit = character.isascii() and character.isdigit()
+        if runs and runs[-1][0] == digit:
+            runs[-1] = (digit, runs[-1][1] + character)
+        else:
+            runs.append((digit, character))
+    return runs
+
+
+def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
+    kind = channel.schema_name.replace("/msg/", "/")
+    if kind not in _BY_TYPE:
+        return Topic(channel, Use.NOTHING, f"{channel.schema_name or 'its type'} is not needed")
+    if not decoder.can_decode(channel):
+        encoding = f"{channel.encoding} with schema {channel.schema_encoding or 'none'}"
+        return Topic(channel, Use.NOTHING, f"its encoding ({encoding}) cannot be read")
+    if len(file.tables[channel.id]) == 0:
+        return Topic(channel, Use.NOTHING, "it has no messages")
+    try:
+        first = decoder.decode(channel, 0)
+    except RecordingError:
+        return Topic(channel, Use.NOTHING, "its first message does not fit its type")
+    use = _BY_TYPE[kind](channel.topic, first)
+    frame = first.header.frame_id.lstrip("/") if hasattr(first, "header") else ""
+    if isinstance(use, Use):
+        return Topic(channel, use, frame=frame)
+    return Topic(channel, Use.NOTHING, use, frame)
+
+
+def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded message)
+    if (image.height, image.width) != ZONES:
+        return f"it is {image.width} x {image.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
+    if image.encoding in _DEPTH_ENCODINGS:
+        return Use.DEPTH
+    if image.encoding in _STATUS_ENCODINGS:
+        return Use.STATUS
+    return f"its encoding {image.encoding!r} is no distance"
+
+
+def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
+    if (info.height, info.width) != ZONES:
+        return f"it is for {info.width} x {info.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
+    fx, fy = float(info.k[0]), float(info.k[4])
+    if not all(math.isfinite(f) and f != 0 for f in (fx, fy)):
+        return f"its focal lengths are {fx:g} and {fy:g}"
+    return Use.CAMERA_INFO
+
+
+def _transforms(topic: str, message: Any) -> Use | str:  # noqa: ANN401
+    return Use.STATIC_TRANSFORMS if topic.endswith("tf_static") else Use.TRANSFORMS
+
+
+def _text(topic: str, message: Any) -> Use | str:  # noqa: ANN401
+    is_urdf = "<robot" in message.data[:4096]
+    return Use.ROBOT if is_urdf else "it is a text, and not a robot description"
+
+
+def _pose(topic: str, message: Any) -> Use | str:  # noqa: ANN401
+    # Robots publish poses of many things; only a name can tell that one is the truth.
+    return Use.POSE if _named_truth(topic) else "its name does not say that it is the truth"
+
+
+def _named_truth(topic: str) -> bool:
+    return any(name in topic.lower() for name in _TRUTH_NAMES)
+
+
+def _points(topic: str, cloud: Any) -> Use | str:  # noqa: ANN401
+    names = {field.name for field in cloud.fields}
+    needed = {"x", "y", "z", "vx", "vy", "vz", "object"}
+    if not needed <= names:
+        return f"it lacks {', '.join(sorted(needed - names))}, which the truth of points needs"
+    return Use.POINTS
+
+
+_BY_TYPE = {
+    "sensor_msgs/Image": _image,
+    "sensor_msgs/CameraInfo": _camera_info,
+    "sensor_msgs/JointState": lambda topic, message: Use.JOINTS,
+    "sensor_msgs/PointCloud2": _points,
+    "tf2_msgs/TFMessage": _transforms,
+    "std_msgs/String": _text,
+    "geometry_msgs/TwistStamped": lambda topic, message: Use.VELOCITY,
+    "geometry_msgs/PoseStamped": _pose,
+}
+
+
+def camera_matrix(info: Any) -> tuple[float, float, float, float]:  # noqa: ANN401
+    """(fx, fy, cx, cy) of a CameraInfo, in zones."""
+    k = np.asarray(info.k, dtype=np.float64)
+    return float(k[0]), float(k[4]), float(k[2]), float(k[5])

@@ -1,0 +1,144 @@
+"""Which truth a recording has, brought into its fixed frame."""
+
+import numpy as np
+
+from recordings.contents import Topic, Use
+from recordings.decoding import Decoder, stamp_of
+from recordings.errors import RecordingError
+from recordings.frame_table import FrameTable
+from recordings.mcap_file import McapFile
+from recordings.point_truth import PointTruths
+from recordings.tracks import Stamps, pose_track, vector_track
+from recordings.transforms import TransformTree
+from recordings.truth import ObjectTruth, RigidTruth, TwistTruth
+
+
+def object_truth(
+    topics: list[Topic],
+    file: McapFile,
+    decoder: Decoder,
+    stamps: Stamps,
+    tree: TransformTree,
+    fixed_frame: str,
+    truth_frame: str | None,
+) -> tuple[ObjectTruth | None, list[str]]:
+    """Find the motion of the moving object.
+
+    Args:
+        topics: of the file.
+        file: the file.
+        decoder: of the same file.
+        stamps: (K,) nanoseconds of the frames.
+        tree: poses of /tf.
+        fixed_frame: in which the truth is wanted.
+        truth_frame: the frame whose motion it is; None for the recorded twist, or else pose.
+
+    Returns:
+        The truth, None where there is none, and sentences about what could not be used.
+
+    Raises:
+        RecordingError: there is no such truth frame, or nothing places it in the fixed frame.
+    """
+    if truth_frame is not None:
+        if truth_frame not in tree.frames or not tree.connected(fixed_frame, truth_frame):
+            listed = ", ".join(sorted(tree.frames)) or "no frames"
+            raise RecordingError(
+                f"{file.path}: the truth frame {truth_frame} has no pose in {fixed_frame}; "
+                f"/tf has {listed}."
+            )
+        poses = [tree.transform(fixed_frame, truth_frame, k) for k in range(len(stamps))]
+        return RigidTruth(np.stack(poses), stamps), []
+    for topic in topics:
+        if topic.use is Use.VELOCITY:
+            return _by_twist(topic, file, decoder, stamps, tree, fixed_frame)
+    for topic in topics:
+        if topic.use is Use.POSE:
+            return _by_pose(topic, file, decoder, stamps, tree, fixed_frame)
+    return None, []
+
+
+def point_truths(
+    topics: list[Topic],
+    decoder: Decoder,
+    table: FrameTable,
+    tree: TransformTree,
+    fixed_frame: str,
+) -> tuple[PointTruths | None, list[str]]:
+    """Find the truth of every point, None where there is none in the fixed frame itself."""
+    topic = next((topic for topic in topics if topic.use is Use.POINTS), None)
+    if topic is None:
+        return None, []
+    if topic.frame not in ("", fixed_frame):
+        return None, [
+            f"The truth of points is given in {topic.frame} and not in {fixed_frame}; "
+            f"it is not used."
+        ]
+    return PointTruths(topic, decoder, table.stamps, 0.5 * table.period), []
+
+
+def _by_twist(
+    topic: Topic,
+    file: McapFile,
+    decoder: Decoder,
+    stamps: Stamps,
+    tree: TransformTree,
+    fixed_frame: str,
+) -> tuple[ObjectTruth | None, list[str]]:
+    times: list[int] = []
+    values: list[tuple[float, float, float]] = []
+    for index in range(len(file.tables[topic.channel.id])):
+        message = decoder.decode(topic.channel, index)
+        linear = message.twist.linear
+        times.append(stamp_of(message))
+        values.append((linear.x, linear.y, linear.z))
+    velocity = np.array(values)
+    warnings: list[str] = []
+    if topic.frame not in ("", fixed_frame):
+        if not tree.connected(fixed_frame, topic.frame):
+            warnings.append(
+                f"The velocity on {topic.name} is given in {topic.frame}, which nothing places in "
+                f"{fixed_frame}; it is taken to be in {fixed_frame}."
+            )
+        elif tree.moves(fixed_frame, topic.frame):
+            return None, [
+                f"The velocity on {topic.name} is given in {topic.frame}, which moves in "
+                f"{fixed_frame}; it is not used as the truth."
+            ]
+        else:
+            velocity = velocity @ tree.transform(fixed_frame, topic.frame, 0)[:3, :3].T
+    track = vector_track(np.array(times, dtype=np.int64), velocity)
+    if track is None:
+        return None, [f"{topic.name} has no finite velocity."]
+    return TwistTruth(track, stamps), warnings
+
+
+def _by_pose(
+    topic: Topic,
+    file: McapFile,
+    decoder: Decoder,
+    stamps: Stamps,
+    tree: TransformTree,
+    fixed_frame: str,
+) -> tuple[ObjectTruth | None, list[str]]:
+    times: list[int] = []
+    places: list[tuple[float, ...]] = []
+    turns: list[tuple[float, ...]] = []
+    for index in range(len(file.tables[topic.channel.id])):
+        message = decoder.decode(topic.channel, index)
+        p, q = message.pose.position, message.pose.orientation
+        times.append(stamp_of(message))
+        places.append((p.x, p.y, p.z))
+        turns.append((q.x, q.y, q.z, q.w))
+    track = pose_track(np.array(times, dtype=np.int64), np.array(places), np.array(turns))
+    if track is None:
+        return None, [f"{topic.name} has no usable pose."]
+    poses = track.at(stamps)
+    if topic.frame not in ("", fixed_frame):
+        if not tree.connected(fixed_frame, topic.frame):
+            return None, [
+                f"The pose on {topic.name} is given in {topic.frame}, which nothing places in "
+                f"{fixed_frame}; it is not used as the truth."
+            ]
+        to_fixed = [tree.transform(fixed_frame, topic.frame, k) for k in range(len(stamps))]
+        poses = np.stack(to_fixed) @ poses
+    return RigidTruth(poses, stamps), []

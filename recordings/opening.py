@@ -1,0 +1,211 @@
+"""Opening a recording: what each topic is, where the sensors are, what the truth is."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from recordings.contents import Topic, Use, topics_of
+from recordings.decoding import Decoder
+from recordings.errors import RecordingError
+from recordings.frame import Provenance
+from recordings.frame_table import FrameTable, frame_table
+from recordings.joints import joint_names, joint_positions, matched
+from recordings.mcap_file import McapFile
+from recordings.object_truth import object_truth, point_truths
+from recordings.recording import Parts, Recording
+from recordings.robot_poses import RobotPoses
+from recordings.sensor_poses import SensorPoses
+from recordings.sensors import depth_stream, recorded_sensors
+from recordings.transforms import TransformTree, read_transforms
+from robot_assets import Rig, Robot, RobotError, Sensor, load_rig, load_robot
+
+PROVENANCE_RECORD = "tofscope"
+
+
+def open_recording(
+    path: str | Path,
+    fixed_frame: str | None = None,
+    truth_frame: str | None = None,
+    rig: Rig | None = None,
+    robot: Robot | None = None,
+) -> Recording:
+    """Open a recording.
+
+    Args:
+        path: an MCAP file.
+        fixed_frame: in which clouds and truth are; default: the root of the tree of /tf, or the
+            robot's base.
+        truth_frame: a frame whose rigid motion is the truth; default: the recorded twist or pose.
+        rig: sensors by name, intrinsics included, for recordings that do not place their own;
+            default: the paper's rig where the joints are a Panda's.
+        robot: default: the recording's description, or a Panda where the joints are a Panda's.
+
+    Returns:
+        The recording; close it, or use it in a `with` statement.
+
+    Raises:
+        RecordingError: the file cannot be read, or holds nothing to estimate from.
+    """
+    file = McapFile(Path(path))
+    try:
+        return _open(file, fixed_frame, truth_frame, rig, robot)
+    except BaseException:
+        file.close()
+        raise
+
+
+def _open(
+    file: McapFile,
+    fixed_frame: str | None,
+    truth_frame: str | None,
+    rig: Rig | None,
+    robot: Robot | None,
+) -> Recording:
+    decoder = Decoder(file)
+    topics = topics_of(file, decoder)
+    found = recorded_sensors(topics, decoder, rig)
+    if not found:
+        raise RecordingError(_nothing_to_estimate_from(file, topics))
+    streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
+    table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
+    tree, warnings = read_transforms(topics, file, decoder, table.stamps)
+    if file.cut_short:
+        warnings.append("The file ends early; what it holds up to there is used.")
+
+    names = joint_names(topics, decoder)
+    if robot is None:
+        robot, said = _robot(topics, decoder, names)
+        warnings += said
+    rig_sensors: list[Sensor | None] = [in_rig for _, _, in_rig in found]
+    if rig is None and robot is not None and set(load_robot().links) <= set(robot.links):
+        default = recorded_sensors(topics, decoder, load_rig())
+        rig_sensors = [in_rig for _, _, in_rig in default]
+
+    frames = [topic.frame for topic, _, _ in found]
+    fixed = _fixed_frame(fixed_frame, file, tree, frames, robot)
+    robot_poses = None
+    if robot is not None:
+        match, said = matched(robot, names)
+        positions = joint_positions(topics, file, decoder, match, table.stamps)
+        warnings += said + _limits(robot, positions)
+        robot_poses = RobotPoses(robot, positions, tree, fixed)
+    poses = SensorPoses(frames, tree, fixed, rig_sensors, robot_poses, len(table.stamps))
+    _check_placed(file, frames, tree, fixed, rig_sensors, robot)
+
+    truth, said = object_truth(topics, file, decoder, table.stamps, tree, fixed, truth_frame)
+    warnings += said
+    points, said = point_truths(topics, decoder, table, tree, fixed)
+    warnings += said
+    return Recording(
+        Parts(
+            file=file,
+            decoder=decoder,
+            frames=table,
+            streams=streams,
+            sensor_poses=poses,
+            robot=robot_poses,
+            truth=truth,
+            point_truths=points,
+            fixed_frame=fixed,
+            truth_frame=truth_frame,
+            provenance=provenance_of(file),
+            warnings=tuple(warnings),
+        )
+    )
+
+
+def provenance_of(file: McapFile) -> Provenance | None:
+    """Where a file comes from, by its metadata; None for files that we did not write."""
+    record = file.metadata.get(PROVENANCE_RECORD)
+    if record is None:
+        return None
+    try:
+        return Provenance(
+            simulated=record["simulated"] == "true",
+            scenario=record["scenario"],
+            speed=float(record["speed"]),
+            trial=int(record["trial"]),
+            seed=int(record["seed"]),
+            noise=record["noise"],
+            command=record["command"],
+        )
+    except (KeyError, ValueError) as error:
+        names = ", ".join(f.name for f in fields(Provenance))
+        raise RecordingError(
+            f"{file.path}: its metadata record '{PROVENANCE_RECORD}' must hold {names}; "
+            f"wrong or missing: {error}."
+        ) from error
+
+
+def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
+    shown = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
+    more = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
+    held = f"it holds {', '.join(shown)}{more}" if topics else "it holds no topics"
+    return f"{file.path} has no 8 x 8 depth images, so there is nothing to estimate from; {held}."
+
+
+def _robot(
+    topics: list[Topic], decoder: Decoder, names: list[str]
+) -> tuple[Robot | None, list[str]]:
+    described = next((topic for topic in topics if topic.use is Use.ROBOT), None)
+    if described is not None:
+        try:
+            robot = load_robot(decoder.decode(described.channel, 0).data)
+        except RobotError as error:
+            return None, [str(error)]
+        if missing := robot.missing_meshes:
+            said = f"{len(missing)} meshes of {robot.name} are not on this machine, such as {missing[0]}."
+            return robot, [said]
+        return robot, []
+    panda = load_robot()
+    arm = [joint for joint in panda.joint_names if "finger" not in joint]
+    fits = set(arm) <= set(panda.match_joints(names).joints.values())
+    return (panda, []) if fits else (None, [])
+
+
+def _limits(robot: Robot, positions: dict[str, np.ndarray]) -> list[str]:
+    """Sentences about joints beyond their limits, at the frame where each is furthest out."""
+    extremes = {
+        joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
+        for joint, values in positions.items()
+        if np.isfinite(values).any()
+    }
+    return robot.outside_limits(extremes)
+
+
+def _fixed_frame(
+    asked: str | None, file: McapFile, tree: TransformTree, frames: list[str], robot: Robot | None
+) -> str:
+    known = tree.frames | set(frames) | (set(robot.links) if robot else set())
+    if asked is not None:
+        if asked not in known:
+            listed = ", ".join(sorted(known))
+            raise RecordingError(f"{file.path} has no frame {asked}; it has {listed}.")
+        return asked
+    in_tree = [frame for frame in frames if frame in tree.frames]
+    if in_tree:
+        roots = [tree.root_of(frame) for frame in in_tree]
+        return max(dict.fromkeys(roots), key=roots.count)
+    return robot.base if robot else frames[0]
+
+
+def _check_placed(
+    file: McapFile,
+    frames: list[str],
+    tree: TransformTree,
+    fixed: str,
+    rig_sensors: list[Sensor | None],
+    robot: Robot | None,
+) -> None:
+    """Refuse a recording none of whose sensors can be placed in the fixed frame."""
+    for frame, sensor in zip(frames, rig_sensors, strict=True):
+        if tree.connected(fixed, frame):
+            return
+        if sensor is not None and robot is not None and sensor.link in robot.links:
+            return
+    raise RecordingError(
+        f"{file.path}: no sensor can be placed in {fixed}; neither /tf nor a rig places "
+        f"{', '.join(frames[:3])}{' ...' if len(frames) > 3 else ''}. "
+        f"Give a rig whose sensors are named like the topics, or another fixed frame."
+    )

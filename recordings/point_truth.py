@@ -1,0 +1,157 @@
+"""The truth of every point, where a recording has it."""
+
+from collections import OrderedDict
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from recordings.cloud import Cloud
+from recordings.contents import Topic
+from recordings.decoding import Decoder
+from recordings.errors import RecordingError
+from recordings.tracks import Stamps
+
+_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+_NEAREST = 0.2  # metres: noise of a few percent of some metres, well below the size of an object
+_CACHED_FRAMES = 64
+
+
+@dataclass(frozen=True)
+class _FrameTruth:
+    table: dict[str, NDArray[Any]]
+    mean_velocity: dict[int, NDArray[np.float64]]
+
+
+class PointTruths:
+    """Reads /truth/points: position, velocity and object of every reading.
+
+    Args:
+        topic: PointCloud2 with x, y, z, vx, vy, vz, object, and, as we write it, sensor and zone.
+        decoder: of the file.
+        stamps: (K,) nanoseconds of the frames.
+        tolerance: how far a message's stamp may be from a frame's, nanoseconds.
+    """
+
+    def __init__(self, topic: Topic, decoder: Decoder, stamps: Stamps, tolerance: float) -> None:
+        self._topic, self._decoder = topic, decoder
+        self._message = _nearest(decoder.header_stamps(topic.channel), stamps, tolerance)
+        self._frames: OrderedDict[int, _FrameTruth | None] = OrderedDict()
+
+    def at(self, k: int, cloud: Cloud) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
+        """Velocity (N, 3) m/s and object (N,) of each point of a frame's cloud.
+
+        Velocities are NaN and objects -1 for points of which the recording does not tell.
+        """
+        frame = self._frame(k)
+        if frame is None:
+            return None
+        row = _rows_by_zone(frame.table, cloud) if "sensor" in frame.table else _rows_by_place(
+            frame.table, cloud
+        )
+        velocity = np.stack([frame.table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
+        known = row >= 0
+        values = np.full((len(row), 3), np.nan)
+        objects = np.full(len(row), -1, dtype=np.int64)
+        values[known] = velocity[row[known]]
+        objects[known] = frame.table["object"][row[known]]
+        return values, objects
+
+    def over(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.float64] | None:
+        """Mean velocity (N, 3) m/s of each point of the source cloud until the target frame.
+
+        A point keeps its velocity relative to its object, whose mean velocity is followed from
+        frame to frame: exact for objects in translation.
+        """
+        start = self.at(source_k, cloud)
+        if start is None:
+            return None
+        velocity, objects = start
+        for number in np.unique(objects[objects >= 0]).tolist():
+            means = [
+                frame.mean_velocity[number]
+                for k in range(source_k, target_k + 1)
+                if (frame := self._frame(k)) is not None and number in frame.mean_velocity
+            ]
+            # The trapezoid rule over evenly spaced frames.
+            weights = np.ones(len(means))
+            if len(means) > 1:
+                weights[[0, -1]] = 0.5
+            velocity[objects == number] += np.average(means, axis=0, weights=weights) - means[0]
+        return velocity
+
+    def _frame(self, k: int) -> _FrameTruth | None:
+        if k not in self._frames:
+            index = int(self._message[k])
+            self._frames[k] = None if index < 0 else self._read(index)
+            while len(self._frames) > _CACHED_FRAMES:
+                self._frames.popitem(last=False)
+        return self._frames[k]
+
+    def _read(self, index: int) -> _FrameTruth:
+        table = fields_of(self._decoder.decode(self._topic.channel, index))
+        velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
+        numbers = np.unique(table["object"]).tolist()
+        means = {int(n): velocity[table["object"] == n].mean(axis=0) for n in numbers}
+        return _FrameTruth(table, means)
+
+
+def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)
+    """The fields of a PointCloud2, (N,) each.
+
+    Raises:
+        RecordingError: the cloud has fewer bytes than its size says.
+    """
+    count, step = cloud.width * cloud.height, cloud.point_step
+    data = bytes(cloud.data)
+    if len(data) < count * step or any(f.datatype not in _KINDS for f in cloud.fields):
+        raise RecordingError(
+            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes, too few for "
+            f"{count} points of {step}, or a field of an unknown type."
+        )
+    order = ">" if cloud.is_bigendian else "<"
+    layout = np.dtype(
+        {
+            "names": [f.name for f in cloud.fields],
+            "formats": [order + _KINDS[f.datatype] for f in cloud.fields],
+            "offsets": [f.offset for f in cloud.fields],
+            "itemsize": step,
+        }
+    )
+    rows = np.frombuffer(data, dtype=layout, count=count)
+    return {
+        name: rows[name].astype(np.float64 if rows[name].dtype.kind == "f" else np.int64)
+        for name in layout.names or ()
+    }
+
+
+def _nearest(messages: Stamps, stamps: Stamps, tolerance: float) -> NDArray[np.int64]:
+    """For each stamp the message nearest to it, -1 where none is within the tolerance."""
+    order = np.argsort(messages, kind="stable")
+    ordered = messages[order]
+    after = np.clip(np.searchsorted(ordered, stamps), 0, len(ordered) - 1)
+    before = np.clip(after - 1, 0, None)
+    nearest = np.where(
+        np.abs(ordered[before] - stamps) < np.abs(ordered[after] - stamps), before, after
+    )
+    near = np.abs(ordered[nearest] - stamps) <= tolerance
+    return np.where(near, order[nearest], -1)
+
+
+def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+    rows = np.full(cloud.ranges.size, -1, dtype=np.int64)
+    zones = cloud.ranges[0].size
+    place = table["sensor"] * zones + table["zone"]
+    inside = (place >= 0) & (place < rows.size)
+    rows[place[inside]] = np.flatnonzero(inside)
+    return rows[cloud.sensor * zones + cloud.zone]
+
+
+def _rows_by_place(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+    points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
+    if len(points) == 0 or len(cloud.points) == 0:
+        return np.full(len(cloud.points), -1, dtype=np.int64)
+    distance, row = cKDTree(points).query(cloud.points)
+    return np.where(distance <= _NEAREST, row, -1)

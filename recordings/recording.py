@@ -1,0 +1,217 @@
+"""A recording: frames of sensors, placed in a fixed frame, with the truth where it is known."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.cloud import Cloud, Reading
+from recordings.decoding import Decoder
+from recordings.errors import RecordingError
+from recordings.frame import Provenance
+from recordings.frame_table import FrameTable
+from recordings.mcap_file import McapFile
+from recordings.point_truth import PointTruths
+from recordings.robot_poses import RobotPoses
+from recordings.sensor_poses import SensorPoses
+from recordings.sensors import DepthStream, RecordedSensor, readings
+from recordings.truth import ObjectTruth, PairTruth, RigidTruth
+from robot_assets import Robot, SelfFilter, Transform
+
+_CACHED_FRAMES = 512
+DEFAULT_MAX_RANGE = 4.0
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What `open_recording` puts together for a Recording."""
+
+    file: McapFile
+    decoder: Decoder
+    frames: FrameTable
+    streams: Sequence[DepthStream]
+    sensor_poses: SensorPoses
+    robot: RobotPoses | None
+    truth: ObjectTruth | None
+    point_truths: PointTruths | None
+    fixed_frame: str
+    truth_frame: str | None
+    provenance: Provenance | None
+    warnings: tuple[str, ...]
+
+
+class Recording:
+    """An opened recording; immutable, and safe to use from several threads.
+
+    Frames are decoded when they are asked for, and the last few hundred are kept.
+
+    Attributes:
+        path: the file.
+        name: the file's name without its ending.
+        stamps: (K,) seconds, strictly increasing.
+        sensors: in the order of `Cloud.sensor`.
+        fixed_frame: in which clouds and truth are.
+        truth_frame: whose rigid motion is the truth, None where it is not a frame's.
+        robot: None where there is none.
+        provenance: where it comes from, None for files that we did not write.
+        duplicates: frames dropped because a later one has the same stamp.
+        warnings: a sentence for whatever could not be used.
+    """
+
+    def __init__(self, parts: Parts) -> None:
+        self._parts = parts
+        self._self_filter = SelfFilter(parts.robot.robot) if parts.robot else None
+        self._reading = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
+        self.path: Path = parts.file.path
+        self.name = parts.file.path.stem
+        self.stamps: NDArray[np.float64] = parts.frames.stamps * 1e-9
+        self.sensors: tuple[RecordedSensor, ...] = tuple(s.sensor for s in parts.streams)
+        self.fixed_frame = parts.fixed_frame
+        self.truth_frame = parts.truth_frame
+        self.robot: Robot | None = parts.robot.robot if parts.robot else None
+        self.provenance = parts.provenance
+        self.duplicates = parts.frames.duplicates
+        self.warnings = parts.warnings
+        self._directions = np.stack([sensor.directions for sensor in self.sensors])
+
+    @property
+    def simulated(self) -> bool:
+        """Whether the readings were computed and not measured."""
+        return self.provenance is not None and self.provenance.simulated
+
+    @property
+    def has_truth(self) -> bool:
+        """Whether the motion of the moving object is known at some frames."""
+        return self._parts.truth is not None
+
+    @property
+    def unplaced(self) -> int:
+        """How many frames lie outside the known poses of every sensor; their clouds are empty."""
+        return self._parts.sensor_poses.unplaced
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    def __enter__(self) -> "Recording":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; frames that were not read yet cannot be read any more."""
+        self._parts.file.close()
+
+    def cloud(self, k: int, max_range: float = DEFAULT_MAX_RANGE) -> Cloud:
+        """What the sensors saw at frame `k`.
+
+        Args:
+            k: index of the frame, from 0.
+            max_range: metres along the zone's ray.
+
+        Raises:
+            IndexError: there is no such frame.
+            RecordingError: the file is broken there.
+        """
+        return self._reading(self._checked(k)).cloud(max_range)
+
+    def T_fixed_sensor(self, k: int) -> NDArray[np.float64]:  # noqa: N802 (a transformation)
+        """Poses (S, 4, 4) of the sensors at frame `k`, NaN where unknown."""
+        return self._parts.sensor_poses.at(self._checked(k))
+
+    def joint_positions(self, k: int) -> dict[str, float]:
+        """{joint: rad or m} at frame `k`; empty without a robot or outside its recorded joints."""
+        robot = self._parts.robot
+        return robot.joint_positions(self._checked(k)) if robot else {}
+
+    def link_poses(self, k: int) -> dict[str, Transform]:
+        """{link: T_fixed_link (4, 4)} at frame `k` of the links whose pose is known."""
+        robot = self._parts.robot
+        return dict(robot.link_poses(self._checked(k))) if robot else {}
+
+    def truth(self, k: int) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s of the moving object in the fixed frame, None where unknown.
+
+        With a truth frame, that of its origin.
+        """
+        k = self._checked(k)
+        return self._parts.truth.at(k) if self._parts.truth else None
+
+    def point_truth(self, k: int, max_range: float = DEFAULT_MAX_RANGE) -> NDArray[np.float64] | None:
+        """Velocity (N, 3) m/s of each point of `cloud(k, max_range)`, zero where static.
+
+        With a truth frame every point is taken to move with it. None where the recording does not
+        tell; NaN for single points of which it does not.
+        """
+        cloud = self.cloud(k, max_range)
+        if isinstance(self._parts.truth, RigidTruth):
+            return self._parts.truth.rates(k, cloud.points)
+        found = self._parts.point_truths.at(k, cloud) if self._parts.point_truths else None
+        return found[0] if found else None
+
+    def pair_truth(
+        self, source_k: int, target_k: int, max_range: float = DEFAULT_MAX_RANGE
+    ) -> PairTruth | None:
+        """The truth over a pair for each point of `cloud(source_k, max_range)`, None if unknown."""
+        cloud = self.cloud(source_k, max_range)
+        truth = self._parts.truth
+        velocity = truth.over(source_k, self._checked(target_k), cloud.points) if truth else None
+        if velocity is None:
+            return None
+        if isinstance(truth, RigidTruth):
+            return PairTruth(velocity, velocity)
+        points = self._parts.point_truths
+        return PairTruth(velocity, points.over(source_k, target_k, cloud) if points else None)
+
+    def _checked(self, k: int) -> int:
+        if not 0 <= k < len(self):
+            raise IndexError(f"{self.name} has the frames 0 to {len(self) - 1}, and not {k}.")
+        return int(k)
+
+    def _read(self, k: int) -> Reading:
+        parts = self._parts
+        ranges = np.full((len(parts.streams), 8, 8), np.nan)
+        for s, stream in enumerate(parts.streams):
+            if (index := int(parts.frames.message[k, s])) >= 0:
+                ranges[s] = self._ranges(stream, index)
+        T_fixed_sensor = parts.sensor_poses.at(k)
+        in_sensor = ranges[..., None] * self._directions
+        R, t = T_fixed_sensor[:, :3, :3], T_fixed_sensor[:, :3, 3]
+        points = np.einsum("sij,srcj->srci", R, in_sensor) + t[:, None, None, :]
+        visible = np.isfinite(points).all(axis=-1)
+        link_poses = parts.robot.link_poses(k) if parts.robot else {}
+        if self._self_filter and link_poses:
+            shown = np.where(visible, ranges, np.nan)
+            visible &= ~self._self_filter.shows_robot(
+                shown, self._directions, T_fixed_sensor, link_poses
+            )
+        return Reading(
+            stamp=float(self.stamps[k]),
+            ranges=ranges,
+            T_fixed_sensor=T_fixed_sensor,
+            points=points,
+            distance=np.linalg.norm(in_sensor, axis=-1),
+            visible=visible,
+        )
+
+    def _ranges(self, stream: DepthStream, index: int) -> NDArray[np.float64]:
+        decoder = self._parts.decoder
+        image = decoder.decode(stream.topic.channel, index)
+        status = None
+        if stream.status and (row := stream.status_index[index]) >= 0:
+            status = decoder.decode(stream.status.channel, int(row))
+        try:
+            return readings(image, status, stream.sensor)
+        except RecordingError as error:
+            raise RecordingError(
+                f"{self.path}, message {index} of {stream.topic.name}: {error}"
+            ) from error

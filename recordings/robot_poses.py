@@ -1,0 +1,67 @@
+"""Where the links of the recording's robot are."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.transforms import Transform, TransformTree
+from robot_assets import Robot
+
+_CACHED_FRAMES = 256
+
+
+class RobotPoses:
+    """The links of a robot at the frames of a recording.
+
+    Args:
+        robot: the robot.
+        positions: {joint: (K,) rad or m, NaN where unknown} of the joints that were recorded.
+        tree: poses of /tf; where it places the robot's base or its links it wins.
+        fixed_frame: in which links are placed.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        positions: dict[str, NDArray[np.float64]],
+        tree: TransformTree,
+        fixed_frame: str,
+    ) -> None:
+        self.robot = robot
+        self._positions = positions
+        self._tree = tree
+        self._fixed_frame = fixed_frame
+        self.link_poses = lru_cache(maxsize=_CACHED_FRAMES)(self._link_poses)
+
+    def joint_positions(self, k: int) -> dict[str, float]:
+        """{joint: rad or m} at frame `k`, empty where any recorded joint is unknown there."""
+        values = {joint: float(position[k]) for joint, position in self._positions.items()}
+        return values if all(np.isfinite(value) for value in values.values()) else {}
+
+    def _link_poses(self, k: int) -> dict[str, Transform]:
+        """{link: T_fixed_link (4, 4)} of all links whose pose is known at frame `k`."""
+        poses: dict[str, Transform] = {}
+        joints = self.joint_positions(k)
+        T_fixed_base = self.base_pose(k)
+        if joints and np.isfinite(T_fixed_base).all():
+            T_base_links = self.robot.link_poses(joints)
+            poses = {link: T_fixed_base @ T for link, T in T_base_links.items()}
+        for link in self.robot.links:
+            if link in self._tree.frames:
+                T_fixed_link = self._tree.transform(self._fixed_frame, link, k)
+                if np.isfinite(T_fixed_link).all():
+                    poses[link] = T_fixed_link
+        return poses
+
+    def base_pose(self, k: int) -> Transform:
+        """T_fixed_base (4, 4), NaN where unknown."""
+        if self._fixed_frame == self.robot.base:
+            return np.eye(4)
+        if self._fixed_frame in self.robot.links:
+            # The fixed frame is a link that only the joints place.
+            joints = self.joint_positions(k)
+            if not joints:
+                return np.full((4, 4), np.nan)
+            return np.linalg.inv(self.robot.link_poses(joints)[self._fixed_frame])
+        return self._tree.transform(self._fixed_frame, self.robot.base, k)

@@ -1,0 +1,64 @@
+"""Where the sensors are at each frame."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.robot_poses import RobotPoses
+from recordings.transforms import TransformTree
+from robot_assets import Sensor
+
+
+class SensorPoses:
+    """Poses of the sensors of a recording in the fixed frame.
+
+    A sensor's frame in /tf wins; where /tf does not place it, the rig does, through the robot.
+
+    Args:
+        frames: optical frame of each sensor.
+        tree: poses of /tf.
+        fixed_frame: in which they are placed.
+        rig_sensors: the rig's sensor for each, None where none matches.
+        robot: of the recording, None where there is none.
+        count: number of frames of the recording.
+    """
+
+    def __init__(
+        self,
+        frames: Sequence[str],
+        tree: TransformTree,
+        fixed_frame: str,
+        rig_sensors: Sequence[Sensor | None],
+        robot: RobotPoses | None,
+        count: int,
+    ) -> None:
+        self._frames = frames
+        self._tree = tree
+        self._fixed_frame = fixed_frame
+        self._by_rig = [
+            None if tree.connected(fixed_frame, frame) else sensor
+            for frame, sensor in zip(frames, rig_sensors, strict=True)
+        ]
+        self._robot = robot
+        self._count = count
+        self._unplaced: int | None = None
+
+    @property
+    def unplaced(self) -> int:
+        """How many frames lie outside the known poses of every sensor."""
+        if self._unplaced is None:
+            self._unplaced = sum(
+                not np.isfinite(self.at(k)).all(axis=(1, 2)).any() for k in range(self._count)
+            )
+        return self._unplaced
+
+    def at(self, k: int) -> NDArray[np.float64]:
+        """T_fixed_sensor (S, 4, 4) at frame `k`, NaN where unknown."""
+        poses = np.full((len(self._frames), 4, 4), np.nan)
+        for s, (frame, sensor) in enumerate(zip(self._frames, self._by_rig, strict=True)):
+            if sensor is None:
+                poses[s] = self._tree.transform(self._fixed_frame, frame, k)
+            elif self._robot and sensor.link in (links := self._robot.link_poses(k)):
+                poses[s] = links[sensor.link] @ sensor.T_link_sensor
+        return poses

@@ -1,0 +1,157 @@
+"""Where frames are: the tree of /tf and /tf_static."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.decoding import Decoder, stamp_of
+from recordings.mcap_file import McapFile
+from recordings.contents import Topic, Use
+from recordings.tracks import PoseTrack, Stamps, pose_track
+
+Transform = NDArray[np.float64]
+
+
+@dataclass
+class _Samples:
+    stamps: list[int] = field(default_factory=list)
+    translation: list[tuple[float, float, float]] = field(default_factory=list)
+    rotation: list[tuple[float, float, float, float]] = field(default_factory=list)
+
+    def track(self) -> PoseTrack | None:
+        return pose_track(
+            np.array(self.stamps, dtype=np.int64),
+            np.array(self.translation, dtype=np.float64).reshape(-1, 3),
+            np.array(self.rotation, dtype=np.float64).reshape(-1, 4),
+        )
+
+
+class TransformTree:
+    """Poses of frames relative to each other at the frames of a recording.
+
+    Args:
+        parents: {frame: its parent}.
+        poses: {frame: T_parent_frame, (K, 4, 4) over the recording's frames or (1, 4, 4) where it
+            never changes, NaN where unknown}.
+    """
+
+    def __init__(self, parents: Mapping[str, str], poses: Mapping[str, Transform]) -> None:
+        self._parents = dict(parents)
+        self._poses = dict(poses)
+
+    @property
+    def frames(self) -> set[str]:
+        """All frames of the tree."""
+        return set(self._parents) | set(self._parents.values())
+
+    def root_of(self, frame: str) -> str:
+        """The frame from which `frame` descends and that has no parent."""
+        return self.path_to_root(frame)[-1]
+
+    def path_to_root(self, frame: str) -> list[str]:
+        """`frame`, its parent and so on, up to the root; a loop is cut where it closes."""
+        path = [frame]
+        while (parent := self._parents.get(path[-1])) is not None and parent not in path:
+            path.append(parent)
+        return path
+
+    def connected(self, a: str, b: str) -> bool:
+        """Whether some chain of poses leads from `a` to `b`."""
+        return a == b or bool(set(self.path_to_root(a)) & set(self.path_to_root(b)))
+
+    def moves(self, a: str, b: str) -> bool:
+        """Whether the pose between two connected frames can change over the recording."""
+        up, down = self._branches(a, b)
+        return any(len(self._poses[frame]) > 1 for frame in [*up, *down])
+
+    def transform(self, a: str, b: str, k: int) -> Transform:
+        """T_a_b (4, 4) at frame `k`, NaN where the frames are not connected or it is unknown."""
+        if not self.connected(a, b):
+            return np.full((4, 4), np.nan)
+        up, down = self._branches(a, b)
+        T_common_a, T_common_b = self._chain(up, k), self._chain(down, k)
+        return inverse(T_common_a) @ T_common_b
+
+    def joined(self, other: "TransformTree") -> "TransformTree":
+        """This tree with the branches of another; where both know a frame's parent, this wins."""
+        return TransformTree(
+            other._parents | self._parents, other._poses | self._poses
+        )
+
+    def _branches(self, a: str, b: str) -> tuple[list[str], list[str]]:
+        """The frames from `a`, and from `b`, up to below the first that both descend from."""
+        path_a, path_b = self.path_to_root(a), self.path_to_root(b)
+        common = next(frame for frame in path_a if frame in path_b)
+        return path_a[: path_a.index(common)], path_b[: path_b.index(common)]
+
+    def _chain(self, frames: Iterable[str], k: int) -> Transform:
+        T: Transform = np.eye(4)
+        for frame in frames:
+            poses = self._poses[frame]
+            T = poses[k if len(poses) > 1 else 0] @ T
+        return T
+
+
+def inverse(T: Transform) -> Transform:
+    """The inverse of a rigid transformation (4, 4)."""
+    result = np.eye(4)
+    result[:3, :3] = T[:3, :3].T
+    result[:3, 3] = -T[:3, :3].T @ T[:3, 3]
+    return result
+
+
+def read_transforms(
+    topics: Iterable[Topic], file: McapFile, decoder: Decoder, stamps: Stamps
+) -> tuple[TransformTree, list[str]]:
+    """Read /tf and /tf_static into a tree at the given frames.
+
+    Args:
+        topics: of the file; those used as poses are read.
+        file: the file.
+        decoder: of the same file.
+        stamps: (K,) nanoseconds of the recording's frames.
+
+    Returns:
+        The tree, and sentences about what could not be used.
+    """
+    parents: dict[str, str] = {}
+    moving: dict[str, _Samples] = {}
+    fixed: dict[str, _Samples] = {}
+    warnings: list[str] = []
+    for topic in topics:
+        if topic.use not in (Use.TRANSFORMS, Use.STATIC_TRANSFORMS):
+            continue
+        into = fixed if topic.use is Use.STATIC_TRANSFORMS else moving
+        for index in range(len(file.tables[topic.channel.id])):
+            for transform in decoder.decode(topic.channel, index).transforms:
+                child = transform.child_frame_id.lstrip("/")
+                parent = transform.header.frame_id.lstrip("/")
+                if parents.setdefault(child, parent) != parent:
+                    warnings.append(
+                        f"Frame {child} has two parents, {parents[child]} and {parent}; "
+                        f"the second is left out."
+                    )
+                    continue
+                _add(into.setdefault(child, _Samples()), transform)
+
+    poses: dict[str, Transform] = {}
+    for child in list(parents):
+        track = (moving.get(child) or fixed[child]).track()
+        if track is None:
+            warnings.append(f"Frame {child} has no usable pose.")
+            del parents[child]
+        elif child in moving:
+            poses[child] = track.at(stamps)
+        else:
+            poses[child] = track.at(track.stamps[-1:])
+    return TransformTree(parents, poses), list(dict.fromkeys(warnings))
+
+
+def _add(samples: _Samples, stamped: object) -> None:
+    transform = stamped.transform  # type: ignore[attr-defined]
+    t, q = transform.translation, transform.rotation
+    samples.stamps.append(stamp_of(stamped))
+    samples.translation.append((t.x, t.y, t.z))
+    samples.rotation.append((q.x, q.y, q.z, q.w))

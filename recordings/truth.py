@@ -1,0 +1,98 @@
+"""How the moving object truly moved."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.tracks import Stamps, VectorTrack
+from recordings.transforms import inverse
+
+
+@dataclass(frozen=True)
+class PairTruth:
+    """The truth over a pair, as the mean over its interval.
+
+    Attributes:
+        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it.
+        points: (N, 3) m/s of each source point itself, zero where static, NaN where unknown;
+            None where the recording does not say.
+    """
+
+    velocity: NDArray[np.float64]
+    points: NDArray[np.float64] | None
+
+
+class ObjectTruth(Protocol):
+    """The motion of the moving object in the fixed frame."""
+
+    def at(self, k: int) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s at frame `k`, None where unknown."""
+        ...
+
+    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Mean velocity (N, 3) m/s of `points` (N, 3) of the object at the source frame."""
+        ...
+
+
+class TwistTruth:
+    """An object in pure translation, whose velocity was recorded.
+
+    Args:
+        track: velocity in the fixed frame.
+        stamps: (K,) nanoseconds of the frames.
+    """
+
+    def __init__(self, track: VectorTrack, stamps: Stamps) -> None:
+        self._track, self._stamps = track, stamps
+        self._at_frames = track.at(stamps)
+
+    def at(self, k: int) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s at frame `k`, None outside the track."""
+        velocity = self._at_frames[k]
+        return velocity if np.isfinite(velocity).all() else None
+
+    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Mean velocity (N, 3) m/s between two frames, the same for every point."""
+        mean = self._track.mean(int(self._stamps[source_k]), int(self._stamps[target_k]))
+        return np.broadcast_to(mean, points.shape) if np.isfinite(mean).all() else None
+
+
+class RigidTruth:
+    """An object that moves rigidly with a frame whose pose was recorded.
+
+    Args:
+        T_fixed_object: (K, 4, 4) at the frames, NaN where unknown.
+        stamps: (K,) nanoseconds of the frames.
+    """
+
+    def __init__(self, T_fixed_object: NDArray[np.float64], stamps: Stamps) -> None:
+        self._poses = T_fixed_object
+        self._seconds = (stamps - stamps[0]) * 1e-9
+
+    def at(self, k: int) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s of the frame's origin at frame `k`.
+
+        The difference between the neighbouring frames, one-sided at the ends; None where unknown.
+        """
+        before, after = max(k - 1, 0), min(k + 1, len(self._seconds) - 1)
+        if before == after:
+            return None
+        step = self._poses[after, :3, 3] - self._poses[before, :3, 3]
+        velocity = step / (self._seconds[after] - self._seconds[before])
+        return velocity if np.isfinite(velocity).all() else None
+
+    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Displacement of each point, carried along rigidly, per interval: (N, 3) m/s."""
+        motion = self._poses[target_k] @ inverse(self._poses[source_k])
+        if not np.isfinite(motion).all():
+            return None
+        moved = points @ motion[:3, :3].T + motion[:3, 3]
+        return (moved - points) / (self._seconds[target_k] - self._seconds[source_k])
+
+    def rates(self, k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Velocity (N, 3) m/s of points carried along rigidly, at frame `k`."""
+        if k + 1 < len(self._seconds):
+            return self.over(k, k + 1, points)
+        return self.over(k, k - 1, points) if k > 0 else None
