@@ -16,7 +16,7 @@ as_root=()
 if [ "$(id -u)" -ne 0 ]; then
     as_root=(sudo -n)
     if ! sudo -n true 2> /dev/null; then
-        echo "$reason. Run this as root and try again: ${install[*]}" >&2
+        echo "$reason. Run this as root and try again: apt-get update && ${install[*]}" >&2
         exit 1
     fi
 fi
