@@ -75,7 +75,9 @@ def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
         chosen = None
         why_not = f"{len(candidates)} topics could be the {use}; name one /target or /truth"
     return [
-        topic if topic.use is not use or topic is chosen else replace(topic, use=Use.NOTHING, why_not=why_not)
+        topic
+        if topic.use is not use or topic is chosen
+        else replace(topic, use=Use.NOTHING, why_not=why_not)
         for topic in topics
     ]
 
@@ -121,7 +123,9 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
 
 def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded message)
     if (image.height, image.width) != ZONES:
-        return f"it is {image.width} x {image.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
+        return (
+            f"it is {image.width} x {image.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
+        )
     if image.encoding in _DEPTH_ENCODINGS:
         return Use.DEPTH
     if image.encoding in _STATUS_ENCODINGS:
@@ -131,7 +135,7 @@ def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded mess
 
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
     if (info.height, info.width) != ZONES:
-        return f"it is for {info.width} x {info.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
+        return f"it is for {info.width} x {info.height} and not {ZONES[1]} x {ZONES[0]} zones"
     fx, fy = float(info.k[0]), float(info.k[4])
     if not all(math.isfinite(f) and f != 0 for f in (fx, fy)):
         return f"its focal lengths are {fx:g} and {fy:g}"

@@ -9,6 +9,7 @@ from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_
 
 from recordings.errors import RecordingError
 from recordings.mcap_file import ChannelInfo, McapFile
+from recordings.stamp_index import STAMP_INDEX, unpack
 
 
 class Decoder:
@@ -22,6 +23,7 @@ class Decoder:
         self._file = file
         self._store = get_typestore(Stores.EMPTY)
         self._known: set[str] = set()
+        self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""))
 
     def can_decode(self, channel: ChannelInfo) -> bool:
         """Whether messages of this channel are in an encoding that is read here."""
@@ -46,14 +48,18 @@ class Decoder:
     def header_stamps(self, channel: ChannelInfo) -> NDArray[np.int64]:
         """Header stamps (N,) in nanoseconds of all messages of a channel whose type has a header.
 
-        Only the stamp is read: it comes first in a message, so nothing is decoded.
+        Our own files say them in an attachment. In others only the stamp is read: it comes first
+        in a message, so nothing is decoded.
         """
+        indexed = self._stamp_index.get(channel.topic)
+        if indexed is not None and len(indexed) == len(self._file.tables[channel.id]):
+            return indexed
         payloads = self._file.messages(channel)
         try:
             return np.array([_stamp(payload) for payload in payloads], dtype=np.int64)
         except struct.error as error:
             raise RecordingError(
-                f"{self._file.path} is broken: a message of {channel.topic} is too short for a header."
+                f"{self._file.path} is broken: a message of {channel.topic} is too short."
             ) from error
 
     def _register(self, channel: ChannelInfo) -> None:

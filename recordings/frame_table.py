@@ -74,6 +74,8 @@ def _duplicates(stamps: list[NDArray[np.int64]]) -> int:
     repeats: dict[int, int] = {}
     for s in stamps:
         distinct, counts = np.unique(s, return_counts=True)
-        for t, count in zip(distinct[counts > 1].tolist(), counts[counts > 1].tolist(), strict=True):
+        for t, count in zip(
+            distinct[counts > 1].tolist(), counts[counts > 1].tolist(), strict=True
+        ):
             repeats[t] = max(repeats.get(t, 0), count - 1)
     return sum(repeats.values())

@@ -64,7 +64,8 @@ def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
     warnings: list[str] = []
     if match.ambiguous:
         warnings.append(
-            f"Several recorded joints fit {', '.join(match.ambiguous)} of {robot.name}; none is used."
+            f"Several recorded joints fit {', '.join(match.ambiguous)} of {robot.name}; "
+            "none of them is used."
         )
     if match.missing and match.joints:
         warnings.append(

@@ -14,7 +14,7 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Attachment, Channel, Chunk, Header, MessageIndex, Metadata, Schema
+from mcap.records import Attachment, Channel, Chunk, MessageIndex, Metadata, Schema
 from mcap.stream_reader import get_chunk_data_stream
 from numpy.typing import NDArray
 
@@ -204,7 +204,6 @@ class McapFile:
 
 
 _SCANNED = {
-    Opcode.HEADER,
     Opcode.SCHEMA,
     Opcode.CHANNEL,
     Opcode.MESSAGE,
@@ -217,9 +216,7 @@ _SCANNED = {
 def _take(contents: _Contents, opcode: int, record: bytes, position: int) -> None:
     """Enter one record of the data section; `position` is its offset in the file."""
     stream = ReadDataStream(BytesIO(record))
-    if opcode == Opcode.HEADER:
-        Header.read(stream)
-    elif opcode == Opcode.SCHEMA:
+    if opcode == Opcode.SCHEMA:
         schema = Schema.read(stream)
         contents.schemas[schema.id] = schema
     elif opcode == Opcode.CHANNEL:
@@ -235,18 +232,22 @@ def _take(contents: _Contents, opcode: int, record: bytes, position: int) -> Non
         attachment = Attachment.read(stream)
         contents.attachments[attachment.name] = attachment.data
     elif opcode == Opcode.CHUNK:
-        inner, _ = get_chunk_data_stream(Chunk.read(stream))
-        data = inner.read(_rest(inner))
-        offset = 0
-        while offset + _RECORD_HEAD.size <= len(data):
-            inner_opcode, length = _RECORD_HEAD.unpack_from(data, offset)
-            start = offset + _RECORD_HEAD.size
-            if inner_opcode == Opcode.MESSAGE:
-                channel_id, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, start)
-                contents.add_message(channel_id, log_time, position, offset)
-            elif inner_opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
-                _take(contents, inner_opcode, data[start : start + length], position)
-            offset = start + length
+        _take_chunk(contents, Chunk.read(stream), position)
+
+
+def _take_chunk(contents: _Contents, chunk: Chunk, position: int) -> None:
+    inner, _ = get_chunk_data_stream(chunk)
+    data = inner.read(_rest(inner))
+    offset = 0
+    while offset + _RECORD_HEAD.size <= len(data):
+        opcode, length = _RECORD_HEAD.unpack_from(data, offset)
+        start = offset + _RECORD_HEAD.size
+        if opcode == Opcode.MESSAGE:
+            channel_id, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, start)
+            contents.add_message(channel_id, log_time, position, offset)
+        elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
+            _take(contents, opcode, data[start : start + length], position)
+        offset = start + length
 
 
 def _opened(path: Path) -> IO[bytes]:

@@ -9,7 +9,7 @@ from recordings.contents import Topic, Use, topics_of
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.frame import Provenance
-from recordings.frame_table import FrameTable, frame_table
+from recordings.frame_table import frame_table
 from recordings.joints import joint_names, joint_positions, matched
 from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
@@ -155,8 +155,8 @@ def _robot(
         except RobotError as error:
             return None, [str(error)]
         if missing := robot.missing_meshes:
-            said = f"{len(missing)} meshes of {robot.name} are not on this machine, such as {missing[0]}."
-            return robot, [said]
+            named = f"{len(missing)} meshes of {robot.name}, such as {missing[0]},"
+            return robot, [f"{named} are not on this machine."]
         return robot, []
     panda = load_robot()
     arm = [joint for joint in panda.joint_names if "finger" not in joint]

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from recordings.cloud import Cloud
 from recordings.contents import Topic
@@ -48,8 +48,10 @@ class PointTruths:
         frame = self._frame(k)
         if frame is None:
             return None
-        row = _rows_by_zone(frame.table, cloud) if "sensor" in frame.table else _rows_by_place(
-            frame.table, cloud
+        row = (
+            _rows_by_zone(frame.table, cloud)
+            if "sensor" in frame.table
+            else _rows_by_place(frame.table, cloud)
         )
         velocity = np.stack([frame.table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
         known = row >= 0
@@ -153,5 +155,5 @@ def _rows_by_place(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.i
     points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
     if len(points) == 0 or len(cloud.points) == 0:
         return np.full(len(cloud.points), -1, dtype=np.int64)
-    distance, row = cKDTree(points).query(cloud.points)
+    distance, row = KDTree(points).query(cloud.points)
     return np.where(distance <= _NEAREST, row, -1)

@@ -68,7 +68,7 @@ class Recording:
         self._reading = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
         self.path: Path = parts.file.path
         self.name = parts.file.path.stem
-        self.stamps: NDArray[np.float64] = parts.frames.stamps * 1e-9
+        self.stamps = parts.frames.stamps.astype(np.float64) * 1e-9
         self.sensors: tuple[RecordedSensor, ...] = tuple(s.sensor for s in parts.streams)
         self.fixed_frame = parts.fixed_frame
         self.truth_frame = parts.truth_frame
@@ -146,7 +146,9 @@ class Recording:
         k = self._checked(k)
         return self._parts.truth.at(k) if self._parts.truth else None
 
-    def point_truth(self, k: int, max_range: float = DEFAULT_MAX_RANGE) -> NDArray[np.float64] | None:
+    def point_truth(
+        self, k: int, max_range: float = DEFAULT_MAX_RANGE
+    ) -> NDArray[np.float64] | None:
         """Velocity (N, 3) m/s of each point of `cloud(k, max_range)`, zero where static.
 
         With a truth frame every point is taken to move with it. None where the recording does not

@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.transforms import Transform, TransformTree
+from recordings.transforms import Transform, TransformTree, inverse
 from robot_assets import Robot
 
 _CACHED_FRAMES = 256
@@ -63,5 +63,5 @@ class RobotPoses:
             joints = self.joint_positions(k)
             if not joints:
                 return np.full((4, 4), np.nan)
-            return np.linalg.inv(self.robot.link_poses(joints)[self._fixed_frame])
+            return inverse(self.robot.link_poses(joints)[self._fixed_frame])
         return self._tree.transform(self._fixed_frame, self.robot.base, k)

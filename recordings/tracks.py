@@ -34,9 +34,11 @@ class PoseTrack:
         asked = (stamps[known] - self.stamps[0]) * 1e-9
         poses[known] = np.eye(4)
         poses[known, :3, 3] = _linear(asked, times, self.translation)
-        rotations = Rotation.from_quat(self.rotation)
-        turned = Slerp(times, rotations)(asked) if len(times) > 1 else rotations[[0] * len(asked)]
-        poses[known, :3, :3] = turned.as_matrix()
+        if len(times) > 1:
+            turned = Slerp(times, Rotation.from_quat(self.rotation))(asked)
+            poses[known, :3, :3] = turned.as_matrix()
+        else:
+            poses[known, :3, :3] = Rotation.from_quat(self.rotation[0]).as_matrix()
         return poses
 
 

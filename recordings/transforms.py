@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from recordings.contents import Topic, Use
 from recordings.decoding import Decoder, stamp_of
 from recordings.mcap_file import McapFile
-from recordings.contents import Topic, Use
 from recordings.tracks import PoseTrack, Stamps, pose_track
 
 Transform = NDArray[np.float64]
@@ -76,9 +76,7 @@ class TransformTree:
 
     def joined(self, other: "TransformTree") -> "TransformTree":
         """This tree with the branches of another; where both know a frame's parent, this wins."""
-        return TransformTree(
-            other._parents | self._parents, other._poses | self._poses
-        )
+        return TransformTree(other._parents | self._parents, other._poses | self._poses)
 
     def _branches(self, a: str, b: str) -> tuple[list[str], list[str]]:
         """The frames from `a`, and from `b`, up to below the first that both descend from."""

@@ -31,7 +31,9 @@ class ObjectTruth(Protocol):
         """Velocity (3,) m/s at frame `k`, None where unknown."""
         ...
 
-    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    def over(
+        self, source_k: int, target_k: int, points: NDArray[np.float64]
+    ) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s of `points` (N, 3) of the object at the source frame."""
         ...
 
@@ -53,7 +55,9 @@ class TwistTruth:
         velocity = self._at_frames[k]
         return velocity if np.isfinite(velocity).all() else None
 
-    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    def over(
+        self, source_k: int, target_k: int, points: NDArray[np.float64]
+    ) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s between two frames, the same for every point."""
         mean = self._track.mean(int(self._stamps[source_k]), int(self._stamps[target_k]))
         return np.broadcast_to(mean, points.shape) if np.isfinite(mean).all() else None
@@ -83,7 +87,9 @@ class RigidTruth:
         velocity = step / (self._seconds[after] - self._seconds[before])
         return velocity if np.isfinite(velocity).all() else None
 
-    def over(self, source_k: int, target_k: int, points: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    def over(
+        self, source_k: int, target_k: int, points: NDArray[np.float64]
+    ) -> NDArray[np.float64] | None:
         """Displacement of each point, carried along rigidly, per interval: (N, 3) m/s."""
         motion = self._poses[target_k] @ inverse(self._poses[source_k])
         if not np.isfinite(motion).all():

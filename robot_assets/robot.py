@@ -5,7 +5,7 @@ import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from io import StringIO
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -43,10 +43,12 @@ class Robot:
     Args:
         urdf: a loaded description; `load_robot` makes one from a file or a text.
         name: what to call it on screen.
+        text: the description as it was given.
     """
 
-    def __init__(self, urdf: yourdfpy.URDF, name: str) -> None:
+    def __init__(self, urdf: yourdfpy.URDF, name: str, text: str) -> None:
         self._urdf = urdf
+        self.text = text
         self._lock = threading.Lock()  # yourdfpy keeps the configuration inside the URDF object
         self.name = name
         self.base = str(urdf.base_link)
@@ -101,6 +103,16 @@ class Robot:
             return {
                 link: np.array(self._urdf.get_transform(link, self.base)) for link in self.links
             }
+
+    @cached_property
+    def parents(self) -> dict[str, str]:
+        """{link: the link that its joint hangs on} of every link but the base."""
+        return {str(joint.child): str(joint.parent) for joint in self._urdf.robot.joints}
+
+    @cached_property
+    def fixed_links(self) -> frozenset[str]:
+        """Links that never move relative to their parent."""
+        return frozenset(str(j.child) for j in self._urdf.robot.joints if j.type == "fixed")
 
     @cached_property
     def visual_meshes(self) -> dict[str, trimesh.Trimesh]:
@@ -164,12 +176,12 @@ def load_robot(source: str | Path | None = None) -> Robot:
             raise RobotError(f"{path} cannot be read as a URDF file: {error}.") from error
     try:
         urdf = yourdfpy.URDF.load(
-            StringIO(text),
+            BytesIO(text.encode("utf-8")),
             filename_handler=lambda name: resolve_mesh(name, folder),
             load_meshes=False,
             build_scene_graph=True,
         )
-        return Robot(urdf, str(urdf.robot.name or "robot"))
+        return Robot(urdf, str(urdf.robot.name or "robot"), text)
     except Exception as error:  # yourdfpy raises whatever its XML parser or its maths meets
         raise RobotError(f"{where} is not a URDF that can be used: {error}.") from error
 

@@ -1,0 +1,185 @@
+"""ROS 2 messages as our writer makes them: standard types, serialised as CDR."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.typesys import Stores, get_typestore
+from scipy.spatial.transform import Rotation
+
+from recordings.frame import PointTruth
+from robot_assets import SensorModel
+
+_STORE = get_typestore(Stores.ROS2_HUMBLE)
+_POINT_FIELDS = (
+    ("x", "f4"),
+    ("y", "f4"),
+    ("z", "f4"),
+    ("vx", "f4"),
+    ("vy", "f4"),
+    ("vz", "f4"),
+    ("object", "u1"),
+    ("sensor", "u1"),
+    ("zone", "u2"),
+)
+_POINT_FIELD_TYPES = {"u1": 2, "u2": 4, "f4": 7}
+
+
+def schema_text(kind: str) -> bytes:
+    """The definition of a type such as "sensor_msgs/msg/Image", with all that it uses."""
+    return _STORE.generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
+
+
+def serialise(message: Any) -> bytes:  # noqa: ANN401 (a message of any type)
+    """A message as CDR."""
+    return bytes(_STORE.serialize_cdr(message, message.__msgtype__))
+
+
+def header(stamp: int, frame: str) -> Any:  # noqa: ANN401
+    """std_msgs/Header; `stamp` in nanoseconds."""
+    time = _make("builtin_interfaces/msg/Time", sec=stamp // 10**9, nanosec=stamp % 10**9)
+    return _make("std_msgs/msg/Header", stamp=time, frame_id=frame)
+
+
+def depth_image(stamp: int, frame: str, ranges: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    """sensor_msgs/Image of readings (rows, columns) in metres: 16UC1, whole millimetres, 0 invalid.
+
+    The sensor reports whole millimetres; REP 118 names this encoding.
+    """
+    millimetres = np.nan_to_num(np.round(ranges * 1000.0), nan=0.0).astype("<u2")
+    rows, columns = millimetres.shape
+    return _make(
+        "sensor_msgs/msg/Image",
+        header=header(stamp, frame),
+        height=rows,
+        width=columns,
+        encoding="16UC1",
+        is_bigendian=0,
+        step=2 * columns,
+        data=np.frombuffer(millimetres.tobytes(), dtype=np.uint8),
+    )
+
+
+def camera_info(stamp: int, frame: str, model: SensorModel) -> Any:  # noqa: ANN401
+    """sensor_msgs/CameraInfo of a sensor model: a pinhole camera whose pixels are zones."""
+    f, cx, cy = model.focal_length, 0.5 * (model.columns - 1), 0.5 * (model.rows - 1)
+    region = _make(
+        "sensor_msgs/msg/RegionOfInterest",
+        x_offset=0,
+        y_offset=0,
+        height=0,
+        width=0,
+        do_rectify=False,
+    )
+    return _make(
+        "sensor_msgs/msg/CameraInfo",
+        header=header(stamp, frame),
+        height=model.rows,
+        width=model.columns,
+        distortion_model="plumb_bob",
+        d=np.zeros(0),
+        k=np.array([f, 0, cx, 0, f, cy, 0, 0, 1], dtype=np.float64),
+        r=np.eye(3).ravel(),
+        p=np.array([f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0], dtype=np.float64),
+        binning_x=0,
+        binning_y=0,
+        roi=region,
+    )
+
+
+def transforms(stamp: int, poses: list[tuple[str, str, NDArray[np.float64]]]) -> Any:  # noqa: ANN401
+    """tf2_msgs/TFMessage of (parent, child, T_parent_child)."""
+    return _make(
+        "tf2_msgs/msg/TFMessage",
+        transforms=[
+            _make(
+                "geometry_msgs/msg/TransformStamped",
+                header=header(stamp, parent),
+                child_frame_id=child,
+                transform=_make(
+                    "geometry_msgs/msg/Transform",
+                    translation=_vector(T[:3, 3]),
+                    rotation=_quaternion(T[:3, :3]),
+                ),
+            )
+            for parent, child, T in poses
+        ],
+    )
+
+
+def joint_state(stamp: int, frame: str, positions: dict[str, float]) -> Any:  # noqa: ANN401
+    """sensor_msgs/JointState with positions only."""
+    return _make(
+        "sensor_msgs/msg/JointState",
+        header=header(stamp, frame),
+        name=list(positions),
+        position=np.array(list(positions.values()), dtype=np.float64),
+        velocity=np.zeros(0),
+        effort=np.zeros(0),
+    )
+
+
+def text(data: str) -> Any:  # noqa: ANN401
+    """std_msgs/String."""
+    return _make("std_msgs/msg/String", data=data)
+
+
+def twist(stamp: int, frame: str, velocity: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    """geometry_msgs/TwistStamped of a translation at `velocity` (3,) m/s."""
+    motion = _make(
+        "geometry_msgs/msg/Twist", linear=_vector(velocity), angular=_vector(np.zeros(3))
+    )
+    return _make("geometry_msgs/msg/TwistStamped", header=header(stamp, frame), twist=motion)
+
+
+def pose(stamp: int, frame: str, T: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    """geometry_msgs/PoseStamped of T (4, 4), which takes points of the object into `frame`."""
+    x, y, z = T[:3, 3].tolist()
+    position = _make("geometry_msgs/msg/Point", x=x, y=y, z=z)
+    placed = _make("geometry_msgs/msg/Pose", position=position, orientation=_quaternion(T[:3, :3]))
+    return _make("geometry_msgs/msg/PoseStamped", header=header(stamp, frame), pose=placed)
+
+
+def points(stamp: int, frame: str, truth: PointTruth) -> Any:  # noqa: ANN401
+    """sensor_msgs/PointCloud2 of the truth of every reading."""
+    rows = np.zeros(len(truth.points), dtype=[(n, f"<{kind}") for n, kind in _POINT_FIELDS])
+    for i, axis in enumerate("xyz"):
+        rows[axis] = truth.points[:, i]
+        rows[f"v{axis}"] = truth.velocity[:, i]
+    rows["object"], rows["sensor"], rows["zone"] = truth.object, truth.sensor, truth.zone
+    fields = [
+        _make(
+            "sensor_msgs/msg/PointField",
+            name=name,
+            offset=int(rows.dtype.fields[name][1]),  # type: ignore[index]
+            datatype=_POINT_FIELD_TYPES[kind],
+            count=1,
+        )
+        for name, kind in _POINT_FIELDS
+    ]
+    return _make(
+        "sensor_msgs/msg/PointCloud2",
+        header=header(stamp, frame),
+        height=1,
+        width=len(rows),
+        fields=fields,
+        is_bigendian=False,
+        point_step=rows.dtype.itemsize,
+        row_step=rows.dtype.itemsize * len(rows),
+        data=np.frombuffer(rows.tobytes(), dtype=np.uint8),
+        is_dense=True,
+    )
+
+
+def _make(kind: str, **fields: Any) -> Any:  # noqa: ANN401
+    return _STORE.types[kind](**fields)
+
+
+def _vector(values: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    x, y, z = values.tolist()
+    return _make("geometry_msgs/msg/Vector3", x=x, y=y, z=z)
+
+
+def _quaternion(R: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    x, y, z, w = Rotation.from_matrix(R).as_quat().tolist()
+    return _make("geometry_msgs/msg/Quaternion", x=x, y=y, z=z, w=w)

@@ -1,0 +1,152 @@
+"""Writing recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
+
+import os
+from dataclasses import asdict
+from pathlib import Path
+from types import TracebackType
+
+import numpy as np
+from mcap.writer import CompressionType, Writer
+
+from recordings import ros_messages as ros
+from recordings.contents import natural_key
+from recordings.errors import RecordingError
+from recordings.frame import Frame, PointTruth, Provenance
+from recordings.opening import PROVENANCE_RECORD
+from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
+from recordings.transforms import inverse
+from robot_assets import Rig, Robot
+
+TARGET_FRAME = "target"
+_LATCHED = (
+    "- durability: transient_local\n  reliability: reliable\n  history: keep_last\n  depth: 1"
+)
+_STREAMED = "- durability: volatile\n  reliability: reliable\n  history: keep_last\n  depth: 10"
+
+
+class RecordingWriter:
+    """Writes frames into an MCAP file; use it in a `with` statement.
+
+    The file appears under its name when it is complete; where writing fails nothing is left.
+
+    Args:
+        path: of the file; one that exists is replaced.
+        robot: that wears the sensors.
+        rig: its sensors.
+        provenance: where the readings come from.
+
+    Raises:
+        RecordingError: the file cannot be written.
+    """
+
+    def __init__(self, path: Path, robot: Robot, rig: Rig, provenance: Provenance) -> None:
+        self._path = path
+        self._part = path.with_name(path.name + ".part")
+        self._robot = robot
+        self._rig = rig
+        self._names = [_topic_part(sensor.name) for sensor in rig.sensors]
+        order = sorted(range(len(self._names)), key=lambda i: natural_key(self._names[i]))
+        self._index_in_file = np.argsort(order)
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        self._stamps: dict[str, list[int]] = {}
+        try:
+            self._stream = self._part.open("wb")
+        except OSError as error:
+            raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
+        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+        self._writer.start(profile="ros2", library="tofscope")
+        self._writer.add_metadata(PROVENANCE_RECORD, _as_text(provenance))
+
+    def __enter__(self) -> "RecordingWriter":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self._writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(self._stamps))
+            self._writer.finish()
+        self._stream.close()
+        if kind is None:
+            os.replace(self._part, self._path)
+        else:
+            self._part.unlink(missing_ok=True)
+
+    def write(self, frame: Frame) -> None:
+        """Append a frame; stamps must increase."""
+        stamp = round(frame.stamp * 1e9)
+        base = self._robot.base
+        if not self._stamps:
+            self._write_constants(stamp)
+        self._add("/joint_states", ros.joint_state(stamp, base, frame.joint_positions), stamp)
+        self._add("/tf", ros.transforms(stamp, self._moving_poses(frame)), stamp)
+        for name, ranges in zip(self._names, frame.ranges, strict=True):
+            image = ros.depth_image(stamp, _frame_id(name), ranges)
+            self._add(f"/tof/{name}/image", image, stamp)
+        self._add("/target/velocity", ros.twist(stamp, base, frame.target_velocity), stamp)
+        self._add("/target/pose", ros.pose(stamp, base, frame.T_base_target), stamp)
+        truth = PointTruth(
+            points=frame.truth.points,
+            velocity=frame.truth.velocity,
+            object=frame.truth.object,
+            sensor=self._index_in_file[frame.truth.sensor],
+            zone=frame.truth.zone,
+        )
+        self._add("/truth/points", ros.points(stamp, base, truth), stamp)
+
+    def _write_constants(self, stamp: int) -> None:
+        robot = self._robot
+        poses = robot.link_poses({})
+        fixed = [
+            (parent, link, inverse(poses[parent]) @ poses[link])
+            for link, parent in robot.parents.items()
+            if link in robot.fixed_links
+        ]
+        mounted = [
+            (sensor.link, _frame_id(name), sensor.T_link_sensor)
+            for name, sensor in zip(self._names, self._rig.sensors, strict=True)
+        ]
+        self._add("/robot_description", ros.text(robot.text), stamp, latched=True)
+        self._add("/tf_static", ros.transforms(stamp, fixed + mounted), stamp, latched=True)
+        for name in self._names:
+            info = ros.camera_info(stamp, _frame_id(name), self._rig.model)
+            self._add(f"/tof/{name}/camera_info", info, stamp, latched=True)
+
+    def _moving_poses(self, frame: Frame) -> list[tuple[str, str, np.ndarray]]:
+        poses = self._robot.link_poses(frame.joint_positions)
+        moving = [
+            (parent, link, inverse(poses[parent]) @ poses[link])
+            for link, parent in self._robot.parents.items()
+            if link not in self._robot.fixed_links
+        ]
+        return [*moving, (self._robot.base, TARGET_FRAME, frame.T_base_target)]
+
+    def _add(self, topic: str, message: object, stamp: int, latched: bool = False) -> None:
+        kind = message.__msgtype__  # type: ignore[attr-defined]
+        if topic not in self._channels:
+            if kind not in self._schemas:
+                schema = self._writer.register_schema(kind, "ros2msg", ros.schema_text(kind))
+                self._schemas[kind] = schema
+            quality = {"offered_qos_profiles": _LATCHED if latched else _STREAMED}
+            channel = self._writer.register_channel(topic, "cdr", self._schemas[kind], quality)
+            self._channels[topic] = channel
+        data = ros.serialise(message)
+        self._writer.add_message(self._channels[topic], stamp, data, stamp)
+        self._stamps.setdefault(topic, []).append(stamp)
+
+
+def _topic_part(sensor_name: str) -> str:
+    return sensor_name.strip("/").replace(" ", "_")
+
+
+def _frame_id(topic_part: str) -> str:
+    return "tof_" + topic_part.replace("/", "_") + "_optical_frame"
+
+
+def _as_text(provenance: Provenance) -> dict[str, str]:
+    values = asdict(provenance)
+    return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}
