@@ -7,19 +7,24 @@ from estimator.cloud import CloudError, CloudPair
 from estimator.estimate import estimate_scene_flow
 from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow
 from estimator.methods import method_names
+from estimator.metrics import MOVING_SPEED, Metrics, PooledErrors, angles_deg
 from estimator.parameters import PARAMETER_INFO, ParameterError, ParameterInfo, Parameters
 
 __all__ = [
+    "MOVING_SPEED",
     "PARAMETER_INFO",
     "CloudError",
     "CloudPair",
     "ClusterResult",
     "IcpRound",
     "Label",
+    "Metrics",
     "ParameterError",
     "ParameterInfo",
     "Parameters",
+    "PooledErrors",
     "SceneFlow",
+    "angles_deg",
     "estimate_scene_flow",
     "method_names",
 ]

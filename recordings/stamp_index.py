@@ -24,5 +24,5 @@ def unpack(data: bytes) -> dict[str, NDArray[np.int64]]:
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as content:
             return {name.replace("|", "/"): content[name].astype(np.int64) for name in content}
-    except (OSError, ValueError, zipfile.BadZipFile):
+    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
         return {}

@@ -1,0 +1,1 @@
+"""The subcommands of `tofscope`, a module each."""

@@ -1,0 +1,140 @@
+"""`tofscope evaluate`: the errors of a method on recordings with truth."""
+
+import argparse
+import json
+import math
+import sys
+from dataclasses import asdict
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from app.errors import InputError, UserError
+from app.evaluation import evaluate
+from app.parameter_flags import add_parameter_flags, parameters_from
+from app.recording_flags import (
+    Opening,
+    add_recording_flags,
+    opening_from,
+    recording_paths,
+)
+from estimator import Metrics, Parameters
+
+_COLUMNS = {
+    "pairs": ("pairs", "d"),
+    "points_with_flow": ("points with flow", "d"),
+    "angle_deg": ("angle deg", ".2f"),
+    "velocity_error": ("velocity error m/s", ".4f"),
+    "coverage": ("coverage", ".3f"),
+    "precision": ("precision", ".3f"),
+    "epe3d": ("EPE3D m", ".4f"),
+}
+_MEANS = ("angle_deg", "velocity_error", "coverage", "precision", "epe3d")
+
+
+def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "evaluate",
+        help="errors against the truth",
+        description=(
+            "Estimate every pair of frames at which the object moves, and compare with the truth. "
+            "angle and velocity error compare every point that has a flow with the moving "
+            "object's velocity, as the paper does; coverage, precision and EPE3D need the truth "
+            "of every point. The exit code is 1 where nothing could be evaluated."
+        ),
+    )
+    parser.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="recording or folder")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the table as JSON, too")
+    add_recording_flags(parser)
+    add_parameter_flags(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    parameters = parameters_from(options)
+    opening = opening_from(options)
+    rows: list[dict[str, Any]] = []
+    print(_line("recording", [title for title, _ in _COLUMNS.values()]))
+    for path in recording_paths(options.paths):
+        row, warnings = _row(path, opening, parameters)
+        rows.append(row)
+        print(_line(path.stem, _cells(row)), flush=True)
+        for warning in warnings:
+            print(f"{path.name}: {warning}", file=sys.stderr)
+    means = _means(rows)
+    for mean in means:
+        print(_line(f"mean of {mean['scenario']}", _cells(mean)))
+    if options.json:
+        _write(options.json, {"parameters": asdict(parameters), "recordings": rows, "means": means})
+    return 0 if any(row["pairs"] is not None for row in rows) else 1
+
+
+def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
+    """A recording's row of the table, and sentences about what to know of it."""
+    row: dict[str, Any] = {"path": str(path), "scenario": None, "speed": None, "trial": None}
+    row |= dict.fromkeys(_COLUMNS)
+    try:
+        with opening.open(path) as recording:
+            warnings = list(recording.warnings)
+            if source := recording.provenance:
+                row |= {"scenario": source.scenario, "speed": source.speed, "trial": source.trial}
+            metrics = evaluate(recording, parameters)
+            count = len(recording)
+    except UserError as error:
+        return row, [str(error)]
+    if metrics is None:
+        return row, [*warnings, "It has no truth, so there is nothing to compare with."]
+    if metrics.pairs == 0:
+        warnings.append(
+            f"None of its pairs counts: it has {count} frames, n is {parameters.n}, and the "
+            f"object must move at both frames of a pair."
+        )
+    if opening.truth_frame is not None:
+        warnings.append(
+            f"Coverage, precision and EPE3D take every point to move with {opening.truth_frame}."
+        )
+    return row | _as_json(metrics), warnings
+
+
+def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Means over the recordings of each scenario that has several."""
+    known = sorted((r for r in rows if r["scenario"]), key=lambda r: r["scenario"])
+    means: list[dict[str, Any]] = []
+    for scenario, group in groupby(known, key=lambda r: r["scenario"]):
+        members = list(group)
+        if len(members) < 2:
+            continue
+        mean: dict[str, Any] = {"scenario": scenario, "recordings": len(members)}
+        for key in _MEANS:
+            values = [row[key] for row in members if row[key] is not None]
+            mean[key] = float(np.mean(values)) if values else None
+        means.append(mean)
+    return means
+
+
+def _as_json(metrics: Metrics) -> dict[str, Any]:
+    return {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
+
+
+def _cells(row: dict[str, Any]) -> list[str]:
+    return [
+        "-" if row.get(key) is None else format(row[key], form)
+        for key, (_, form) in _COLUMNS.items()
+    ]
+
+
+def _line(name: str, cells: list[str]) -> str:
+    widths = [max(len(title), 8) for title, _ in _COLUMNS.values()]
+    aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
+    return "  ".join([name.ljust(24), *aligned])
+
+
+def _write(path: Path, content: dict[str, Any]) -> None:
+    try:
+        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}.") from error

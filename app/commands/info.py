@@ -1,0 +1,113 @@
+"""`tofscope info`: what is in a recording, and what each topic is used as."""
+
+import argparse
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from app.errors import UserError
+from app.recording_flags import Opening, add_recording_flags, opening_from
+from recordings import Recording
+from recordings.info import FileInfo, TopicInfo, file_info
+
+
+def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "info",
+        help="what is in a recording",
+        description=(
+            "List the topics of an MCAP file with their types, counts, rates and longest gaps, "
+            "what each will be used as, and what the recording is as a whole. The exit code is 1 "
+            "where the file is not MCAP."
+        ),
+    )
+    parser.add_argument("path", type=Path, metavar="PATH", help="an MCAP file")
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    add_recording_flags(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    info = file_info(options.path)
+    summary = _summary(options.path, opening_from(options))
+    if options.json:
+        print(json.dumps(asdict(info) | {"recording": summary}, indent=2))
+    else:
+        print(_text(info, summary))
+    return 0
+
+
+def _summary(path: Path, opening: Opening) -> dict[str, Any]:
+    """What the file is as a recording, or why it cannot be opened as one."""
+    try:
+        with opening.open(path) as recording:
+            return _described(recording)
+    except UserError as error:
+        return {"problem": str(error)}
+
+
+def _described(recording: Recording) -> dict[str, Any]:
+    return {
+        "frames": len(recording),
+        "duration": float(recording.stamps[-1] - recording.stamps[0]),
+        "sensors": [sensor.name for sensor in recording.sensors],
+        "fixed_frame": recording.fixed_frame,
+        "robot": recording.robot.name if recording.robot else None,
+        "truth": recording.has_truth,
+        "duplicates": recording.duplicates,
+        "frames_outside_known_poses": recording.unplaced,
+        "provenance": asdict(recording.provenance) if recording.provenance else None,
+        "warnings": list(recording.warnings),
+    }
+
+
+def _text(info: FileInfo, summary: dict[str, Any]) -> str:
+    lines = [f"{info.path}: {info.size / 1e6:.2f} MB, {info.duration:.2f} s", ""]
+    if info.cut_short:
+        lines.insert(1, "The file ends early; what it holds up to there is used.")
+    lines += [*_table([_cells(topic) for topic in info.topics]), ""]
+    if "problem" in summary:
+        return "\n".join([*lines, summary["problem"]])
+    lines += [
+        f"frames        {summary['frames']} in {summary['duration']:.2f} s, "
+        f"{summary['duplicates']} duplicates dropped, "
+        f"{summary['frames_outside_known_poses']} outside the known poses",
+        f"sensors       {len(summary['sensors'])}: {', '.join(summary['sensors'])}",
+        f"fixed frame   {summary['fixed_frame']}",
+        f"robot         {summary['robot'] or 'none'}",
+        f"truth         {'yes' if summary['truth'] else 'none'}",
+    ]
+    if source := summary["provenance"]:
+        kind = "simulated" if source["simulated"] else "measured"
+        lines += [
+            f"provenance    {kind}: {source['scenario']}, {source['speed']:g} m/s, "
+            f"trial {source['trial']}, seed {source['seed']}",
+            f"noise         {source['noise']}",
+            f"made by       {source['command']}",
+        ]
+    lines += [f"warning       {warning}" for warning in summary["warnings"]]
+    return "\n".join(lines)
+
+
+def _cells(topic: TopicInfo) -> list[str]:
+    use = f"{topic.use}: {topic.why_not}" if topic.why_not else topic.use
+    return [
+        topic.topic,
+        topic.type or topic.encoding,
+        str(topic.messages),
+        "-" if topic.rate is None else f"{topic.rate:.1f} Hz",
+        "-" if topic.longest_gap is None else f"{topic.longest_gap:.3f} s",
+        use,
+    ]
+
+
+def _table(rows: list[list[str]]) -> list[str]:
+    table = [["topic", "type", "messages", "rate", "longest gap", "used as"], *rows]
+    widths = [max(len(row[column]) for row in table) for column in range(len(table[0]) - 1)]
+    return [
+        "  ".join([cell.ljust(w) for cell, w in zip(row, widths, strict=False)] + [row[-1]])
+        for row in table
+    ]

@@ -1,0 +1,41 @@
+"""A method run over a whole recording, against its truth."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from estimator import MOVING_SPEED, Metrics, Parameters, PooledErrors, estimate_scene_flow
+from recordings import Recording
+
+
+def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
+    """Estimate every pair that counts and pool the errors; None where there is no truth."""
+    if not recording.has_truth:
+        return None
+    errors = PooledErrors()
+    for source_k, target_k in counting_pairs(recording, parameters.n):
+        truth = recording.pair_truth(source_k, target_k, parameters.max_range)
+        if truth is None:
+            continue
+        interval = float(recording.stamps[target_k] - recording.stamps[source_k])
+        flow = estimate_scene_flow(
+            recording.cloud(source_k, parameters.max_range),
+            recording.cloud(target_k, parameters.max_range),
+            interval,
+            parameters,
+        )
+        errors.add(flow, interval, truth.velocity, truth.points)
+    return errors.metrics()
+
+
+def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
+    """The pairs (k-n, k) at both of whose frames the object moves."""
+    moves = [_moves(recording, k) for k in range(len(recording))]
+    for k in range(n, len(recording)):
+        if moves[k - n] and moves[k]:
+            yield k - n, k
+
+
+def _moves(recording: Recording, k: int) -> bool:
+    velocity = recording.truth(k)
+    return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED

@@ -1,0 +1,80 @@
+"""The flags that say how recordings are opened."""
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.errors import InputError
+from recordings import Recording, open_recording
+from robot_assets import Rig, Robot, load_rig, load_robot
+
+
+@dataclass(frozen=True)
+class Opening:
+    """How recordings are opened: the arguments of `open_recording` beside the path."""
+
+    fixed_frame: str | None = None
+    truth_frame: str | None = None
+    rig: Rig | None = None
+    robot: Robot | None = None
+
+    def open(self, path: Path) -> Recording:
+        """Open a recording; RecordingError where that is not possible."""
+        return open_recording(path, self.fixed_frame, self.truth_frame, self.rig, self.robot)
+
+
+def add_recording_flags(parser: argparse.ArgumentParser) -> None:
+    """Add --fixed-frame, --truth-frame, --rig and --urdf."""
+    group = parser.add_argument_group("how recordings are opened")
+    group.add_argument(
+        "--fixed-frame",
+        metavar="FRAME",
+        help="frame in which clouds and flow are (default: the root of /tf, or the robot's base)",
+    )
+    group.add_argument(
+        "--truth-frame",
+        metavar="FRAME",
+        help="frame whose rigid motion is the truth (default: the recorded twist or pose)",
+    )
+    group.add_argument(
+        "--rig",
+        type=Path,
+        metavar="FILE",
+        help="rig file (TOML) for recordings that do not place their sensors themselves",
+    )
+    group.add_argument(
+        "--urdf",
+        type=Path,
+        metavar="FILE",
+        help="robot (default: the recording's own description, or a Panda where the joints fit)",
+    )
+
+
+def opening_from(options: argparse.Namespace) -> Opening:
+    """Collect the flags; RigError or RobotError where a file cannot be used."""
+    return Opening(
+        fixed_frame=options.fixed_frame,
+        truth_frame=options.truth_frame,
+        rig=load_rig(options.rig) if options.rig else None,
+        robot=load_robot(options.urdf) if options.urdf else None,
+    )
+
+
+def recording_paths(arguments: list[Path]) -> list[Path]:
+    """The recordings that arguments name: files as they are, folders as the *.mcap in them.
+
+    Raises:
+        InputError: a path is not there, or a folder has no recordings.
+    """
+    paths: list[Path] = []
+    for argument in arguments:
+        if argument.is_dir():
+            inside = sorted(argument.glob("*.mcap"))
+            if not inside:
+                raise InputError(f"The folder {argument} has no .mcap files.")
+            paths += inside
+        elif argument.exists():
+            paths.append(argument)
+        else:
+            raise InputError(f"There is no file or folder {argument}.")
+    return paths

@@ -1,0 +1,91 @@
+"""What is in a recording, without estimating anything."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from recordings.contents import Topic, topics_of
+from recordings.decoding import Decoder
+from recordings.mcap_file import McapFile
+
+
+@dataclass(frozen=True)
+class TopicInfo:
+    """A topic of a file; times are log times.
+
+    Attributes:
+        topic: its name.
+        type: name of its schema.
+        encoding: of its messages.
+        messages: their number.
+        rate: mean messages per second, None for fewer than two.
+        longest_gap: seconds, None for fewer than two.
+        use: what it is used as.
+        why_not: why it is not used, "" where it is.
+    """
+
+    topic: str
+    type: str
+    encoding: str
+    messages: int
+    rate: float | None
+    longest_gap: float | None
+    use: str
+    why_not: str
+
+
+@dataclass(frozen=True)
+class FileInfo:
+    """What is in an MCAP file.
+
+    Attributes:
+        path: of the file.
+        size: bytes.
+        duration: seconds between the first and the last message.
+        topics: in natural order.
+        cut_short: whether the file ends in the middle.
+    """
+
+    path: str
+    size: int
+    duration: float
+    topics: tuple[TopicInfo, ...]
+    cut_short: bool
+
+
+def file_info(path: str | Path) -> FileInfo:
+    """Look into an MCAP file; it need not be a recording that can be opened.
+
+    Raises:
+        RecordingError: it cannot be read as MCAP.
+    """
+    file = McapFile(Path(path))
+    try:
+        topics = topics_of(file, Decoder(file))
+        times = np.concatenate([table.log_time for table in file.tables.values()] or [np.zeros(0)])
+        return FileInfo(
+            path=str(path),
+            size=file.path.stat().st_size,
+            duration=float(times.max() - times.min()) * 1e-9 if len(times) else 0.0,
+            topics=tuple(_topic_info(topic, file) for topic in topics),
+            cut_short=file.cut_short,
+        )
+    finally:
+        file.close()
+
+
+def _topic_info(topic: Topic, file: McapFile) -> TopicInfo:
+    times = file.tables[topic.channel.id].log_time
+    gaps = np.diff(times) * 1e-9
+    lasted = float(gaps.sum())
+    return TopicInfo(
+        topic=topic.name,
+        type=topic.channel.schema_name,
+        encoding=topic.channel.encoding,
+        messages=len(times),
+        rate=len(gaps) / lasted if lasted > 0 else None,
+        longest_gap=float(gaps.max()) if len(gaps) else None,
+        use=topic.use.value,
+        why_not=topic.why_not,
+    )
