@@ -1,0 +1,16 @@
+"""Colours of the app, as in the paper's figures: source red, target blue, flow green."""
+
+Colour = tuple[int, int, int]
+
+SOURCE: Colour = (214, 39, 40)
+TARGET: Colour = (31, 99, 200)
+FLOW: Colour = (22, 160, 70)
+TRUTH: Colour = (240, 150, 0)
+SENSOR: Colour = (205, 20, 30)
+FIELD_OF_VIEW: Colour = (190, 110, 110)
+BRAND: Colour = (31, 99, 200)
+
+
+def css(colour: Colour) -> str:
+    """The colour in CSS notation."""
+    return "#{:02x}{:02x}{:02x}".format(*colour)

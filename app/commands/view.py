@@ -1,0 +1,87 @@
+"""`tofscope view`: the app in the browser."""
+
+import argparse
+import ipaddress
+import signal
+import sys
+import threading
+from pathlib import Path
+
+from app.parameter_flags import add_parameter_flags, parameters_from
+from app.recording_flags import add_recording_flags, opening_from
+from recordings import sample_paths
+
+
+def add_parser(commands: argparse._SubParsersAction) -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "view",
+        help="look at recordings and tune the estimator in the browser",
+        description="Serve a page that shows recordings and their scene flow. Ctrl-C ends it.",
+    )
+    parser.add_argument(
+        "paths",
+        nargs="*",
+        type=Path,
+        metavar="PATH",
+        help="a recording, several, or a folder of them (*.mcap); default: the shipped samples",
+    )
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address to serve at (default 127.0.0.1: for this machine alone)",
+    )
+    parser.add_argument(
+        "--port", type=_port, default=8080, help="port to serve at, 0 for a free one (default 8080)"
+    )
+    add_recording_flags(parser)
+    add_parameter_flags(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve until somebody ends it."""
+    # viser takes a second to import, which `tofscope --help` need not wait for.
+    from app.estimates import Estimates
+    from app.library import Library
+    from app.reloads import Reloads
+    from app.server import Server
+    from app.session import Shared
+
+    parameters = parameters_from(options)
+    library = Library(options.paths or sample_paths(), opening_from(options).open)
+    entries = library.listing()
+    if len(entries) == 1:
+        # The only recording there is must open; of several, a bad one is told on the page.
+        library.release(library.open(entries[0]).entry)
+
+    ended = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: ended.set())
+    server = Server(Shared(library, Estimates(), Reloads(), parameters), options.host, options.port)
+    try:
+        if not _is_loopback(options.host):
+            print(
+                f"Warning: at {options.host} everybody who can reach this machine can see the "
+                "recordings; there is no password.",
+                file=sys.stderr,
+            )
+        print(f"Tofscope is at {server.address}", flush=True)
+        ended.wait()
+    finally:
+        server.close()
+    return 0
+
+
+def _is_loopback(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost"
+
+
+def _port(text: str) -> int:
+    port = int(text)
+    if not 0 <= port <= 65535:
+        raise ValueError
+    return port

@@ -1,0 +1,124 @@
+"""Pairs and their flow: computed once, remembered, and shared between sessions."""
+
+import time
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.library import Opened
+from app.memory import Memory
+from estimator import (
+    MOVING_SPEED,
+    Metrics,
+    Parameters,
+    PooledErrors,
+    SceneFlow,
+    estimate_scene_flow,
+)
+from recordings import Cloud, PairTruth
+from robot_assets import Transform
+
+
+@dataclass(frozen=True)
+class Pair:
+    """The pair of a frame, and what was estimated from it.
+
+    Attributes:
+        frame: k.
+        target: P_k.
+        source: P_{k-n}, None where frame k-n is before the start.
+        interval: seconds between the two stamps, NaN without a source.
+        link_poses: {link: T_fixed_link (4, 4)} at frame k.
+        truth: over the interval, None where it is not known.
+        flow: None without a source, or where nothing was estimated yet.
+        milliseconds: how long the estimate took, NaN without one.
+    """
+
+    frame: int
+    target: Cloud
+    source: Cloud | None
+    interval: float
+    link_poses: dict[str, Transform]
+    truth: PairTruth | None
+    flow: SceneFlow | None = field(default=None)
+    milliseconds: float = field(default=float("nan"))
+
+    @property
+    def object_velocity(self) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s of the moving object, mean over its points; None unless it moves."""
+        if self.truth is None or len(self.truth.velocity) == 0:
+            return None
+        velocity = np.asarray(self.truth.velocity[self.truly_moving]).mean(axis=0)
+        return velocity if np.linalg.norm(velocity) > MOVING_SPEED else None
+
+    @property
+    def truly_moving(self) -> NDArray[np.bool_]:
+        """(N,) whether a source point truly moves; all of them where only the object is known."""
+        size = len(self.source.points) if self.source else 0
+        if self.truth is None or self.truth.points is None:
+            return np.ones(size, dtype=bool)
+        moving = np.linalg.norm(self.truth.points, axis=1) > MOVING_SPEED
+        return moving if moving.any() else np.ones(size, dtype=bool)
+
+    @property
+    def errors(self) -> Metrics | None:
+        """The errors of this pair; None unless it has a flow and its object moves."""
+        if self.flow is None or self.truth is None or self.object_velocity is None:
+            return None
+        errors = PooledErrors()
+        errors.add(self.flow, self.interval, self.truth.velocity, self.truth.points)
+        return errors.metrics()
+
+
+class Estimates:
+    """Clouds and flows, bounded in number, for all sessions.
+
+    Args:
+        clouds: how many clouds are remembered.
+        flows: how many estimates are remembered.
+    """
+
+    def __init__(self, clouds: int = 400, flows: int = 400) -> None:
+        self._clouds: Memory[tuple, Cloud] = Memory(clouds)
+        self._pairs: Memory[tuple, Pair] = Memory(flows)
+
+    def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+        """The pair (k-n, k) without an estimate, its clouds taken from memory where they are.
+
+        Raises:
+            RecordingError: the file is broken there.
+        """
+        recording, source_k = opened.recording, k - parameters.n
+        target = self._cloud(opened, k, parameters.max_range)
+        if source_k < 0:
+            return Pair(k, target, None, float("nan"), recording.link_poses(k), None)
+        return Pair(
+            frame=k,
+            target=target,
+            source=self._cloud(opened, source_k, parameters.max_range),
+            interval=float(recording.stamps[k] - recording.stamps[source_k]),
+            link_poses=recording.link_poses(k),
+            truth=recording.pair_truth(source_k, k, parameters.max_range),
+        )
+
+    def estimated(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+        """The pair (k-n, k) with its flow.
+
+        Raises:
+            RecordingError: the file is broken there.
+        """
+        key = (opened.key, k, parameters)
+        return self._pairs.get(key, lambda: _estimate(self.pair(opened, k, parameters), parameters))
+
+    def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
+        key = (opened.key, k, max_range)
+        return self._clouds.get(key, lambda: opened.recording.cloud(k, max_range))
+
+
+def _estimate(pair: Pair, parameters: Parameters) -> Pair:
+    if pair.source is None:
+        return pair
+    start = time.perf_counter()
+    flow = estimate_scene_flow(pair.source, pair.target, pair.interval, parameters)
+    return replace(pair, flow=flow, milliseconds=1e3 * (time.perf_counter() - start))

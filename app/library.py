@@ -1,0 +1,114 @@
+"""The recordings that the app offers, and those that are open."""
+
+import threading
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.errors import InputError
+from recordings import Recording
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One recording of the list: `label` is what people read, unique in the list."""
+
+    label: str
+    path: Path
+
+
+@dataclass(frozen=True)
+class Opened:
+    """An open recording.
+
+    Attributes:
+        entry: where it is in the list.
+        recording: safe to use from several threads.
+        key: the same wherever the file is the same, so that results outlive a closed file.
+    """
+
+    entry: Entry
+    recording: Recording
+    key: tuple[str, int, int]
+
+
+class _Shared:
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self.users = 0
+        self.opened: Opened | None = None
+
+
+class Library:
+    """Lists recordings and opens each of them once, for as long as anybody uses it.
+
+    Args:
+        paths: files, and folders whose *.mcap files are listed.
+        open_recording: opens the recording at a path.
+
+    Raises:
+        InputError: a path that is not there.
+    """
+
+    def __init__(self, paths: Sequence[Path], open_recording: Callable[[Path], Recording]) -> None:
+        self.paths = tuple(path.absolute() for path in paths)
+        for path in self.paths:
+            if not path.exists():
+                raise InputError(f"There is no file or folder {path}; check the spelling.")
+        self._open_recording = open_recording
+        self._lock = threading.Lock()
+        self._shared: dict[Entry, _Shared] = {}
+
+    def listing(self) -> tuple[Entry, ...]:
+        """All recordings that are there now, in the order of the paths and of their names."""
+        files: dict[Path, None] = {}
+        for path in self.paths:
+            files |= dict.fromkeys(sorted(path.glob("*.mcap")) if path.is_dir() else [path])
+        return tuple(
+            Entry(label, path) for label, path in zip(_labels([*files]), files, strict=True)
+        )
+
+    def open(self, entry: Entry) -> Opened:
+        """Open a recording, or share it where it is open; `release` it afterwards.
+
+        Raises:
+            RecordingError: it cannot be opened.
+        """
+        with self._lock:
+            shared = self._shared.setdefault(entry, _Shared())
+            shared.users += 1
+        try:
+            with shared.lock:
+                if shared.opened is None:
+                    recording = self._open_recording(entry.path)
+                    status = entry.path.stat()
+                    key = (str(entry.path), status.st_mtime_ns, status.st_size)
+                    shared.opened = Opened(entry, recording, key)
+                return shared.opened
+        except BaseException:
+            self.release(entry)
+            raise
+
+    def release(self, entry: Entry) -> None:
+        """Give an opened recording back; the last one to do so closes it."""
+        with self._lock:
+            shared = self._shared[entry]
+            shared.users -= 1
+            if shared.users > 0:
+                return
+            del self._shared[entry]
+        if shared.opened is not None:
+            shared.opened.recording.close()
+
+
+def _labels(files: Sequence[Path]) -> list[str]:
+    """Stems where they are unique, else with their folder, else the whole path."""
+    labels = [path.stem for path in files]
+    for longer in (lambda path: f"{path.parent.name}/{path.name}", str):
+        count = Counter(labels)
+        labels = [
+            longer(path) if count[label] > 1 else label
+            for path, label in zip(files, labels, strict=True)
+        ]
+    return labels

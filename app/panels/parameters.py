@@ -1,0 +1,115 @@
+"""The estimator's parameters: sliders for the paper's four, the others folded away."""
+
+from collections.abc import Callable
+from dataclasses import fields
+from html import escape
+from typing import Any
+
+import viser
+
+from app.wishes import ChangeParameters
+from estimator import PARAMETER_INFO, Parameters, method_names
+
+_UNSET = 0
+"""What stands in a number field for a parameter that is unset."""
+
+_DEFAULTS: dict[str, Any] = {field.name: field.default for field in fields(Parameters)}
+_OPTIONAL = {name for name, default in _DEFAULTS.items() if default is None}
+
+
+class ParametersPanel:
+    """Change parameters; what is out of range is refused in words.
+
+    Args:
+        gui: of the client.
+        parameters: to begin with.
+        post: takes wishes.
+    """
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        parameters: Parameters,
+        post: Callable[[ChangeParameters], None],
+    ) -> None:
+        self._controls: dict[str, Any] = {}
+        with gui.add_folder("Parameters"):
+            for name in _DEFAULTS:
+                if PARAMETER_INFO[name].slider:
+                    self._controls[name] = _add_slider(gui, name, getattr(parameters, name))
+            self._refusal = gui.add_html("", visible=False)
+            with gui.add_folder("More parameters", expand_by_default=False):
+                for name in _DEFAULTS:
+                    if not PARAMETER_INFO[name].slider:
+                        self._controls[name] = _add_field(gui, name, getattr(parameters, name))
+            reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE)
+
+        for name, control in self._controls.items():
+            control.on_update(lambda event, name=name: self._post(event, name, post))
+
+        @reset.on_click
+        def _(_: viser.GuiEvent) -> None:
+            post(ChangeParameters(_DEFAULTS))
+
+    def show(self, parameters: Parameters) -> None:
+        """Show these parameters, and that nothing is refused."""
+        for name, control in self._controls.items():
+            value = getattr(parameters, name)
+            control.value = _UNSET if value is None else value
+        self._refusal.visible = False
+
+    def refuse(self, reason: str) -> None:
+        """Say why a value is not taken; the controls stay, so that a person can go on typing."""
+        self._refusal.content = (
+            '<div style="font-size: 0.8rem; padding: 0 1em; color: #c92a2a" role="alert">'
+            f"{escape(reason)}</div>"
+        )
+        self._refusal.visible = True
+
+    def _post(
+        self, event: viser.GuiEvent, name: str, post: Callable[[ChangeParameters], None]
+    ) -> None:
+        if event.client_id is not None:
+            value = self._controls[name].value
+            unset = name in _OPTIONAL and value == _UNSET
+            post(ChangeParameters({name: None if unset else value}))
+
+
+def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN401 (viser's handles)
+    info = PARAMETER_INFO[name]
+    assert info.slider is not None
+    low, high, step = info.slider
+    kind = type(_DEFAULTS[name])
+    # A flag may have asked for more than the slider offers.
+    high = max(high, value)
+    return gui.add_slider(
+        info.symbol,
+        min=kind(min(low, value)),
+        max=kind(high),
+        step=kind(step),
+        initial_value=kind(value),
+        marks=((kind(low), f"{low:g}"), (kind(high), f"{high:g} {info.unit}".strip())),
+        hint=_hint(name),
+    )
+
+
+def _add_field(gui: viser.GuiApi, name: str, value: Any) -> Any:  # noqa: ANN401 (of any parameter)
+    info, label = PARAMETER_INFO[name], name.replace("_", " ")
+    if name == "method":
+        return gui.add_dropdown(label, method_names(), initial_value=value, hint=_hint(name))
+    if isinstance(_DEFAULTS[name], bool):
+        return gui.add_checkbox(label, value, hint=_hint(name))
+    whole = not isinstance(_DEFAULTS[name], float)
+    return gui.add_number(
+        label,
+        initial_value=_UNSET if value is None else value,
+        min=_UNSET if name in _OPTIONAL else (int(info.low) if whole else info.low),
+        max=int(info.high) if whole else info.high,
+        step=1 if whole else 0.01,
+        hint=_hint(name) + (f" ({_UNSET}: unset)" if name in _OPTIONAL else ""),
+    )
+
+
+def _hint(name: str) -> str:
+    info = PARAMETER_INFO[name]
+    return f"{info.text} [{info.unit}]" if info.unit else info.text

@@ -1,0 +1,35 @@
+"""The robot: its links' meshes under frames that follow the links."""
+
+from collections.abc import Mapping
+
+import viser
+
+from app.scene.placing import UNKNOWN, place
+from app.scene.shapes import RobotShape
+from robot_assets import Transform
+
+ROOT = "/robot"
+
+
+class RobotView:
+    """Draws a robot; the meshes go to the browser once and are only moved afterwards."""
+
+    def __init__(self, scene: viser.SceneApi, shape: RobotShape) -> None:
+        self.digest = shape.digest
+        self._links: dict[str, viser.FrameHandle] = {}
+        for link, parts in shape.links.items():
+            self._links[link] = scene.add_frame(f"{ROOT}/{link}", show_axes=False, visible=False)
+            for index, part in enumerate(parts):
+                scene.add_mesh_simple(
+                    f"{ROOT}/{link}/{index}", part.vertices, part.faces, color=part.colour
+                )
+
+    def show(self, link_poses: Mapping[str, Transform]) -> None:
+        """Move the links to their poses T_fixed_link; a link without one is hidden."""
+        for link, frame in self._links.items():
+            place(frame, link_poses.get(link, UNKNOWN))
+
+    def remove(self) -> None:
+        """Take the robot out of the scene."""
+        for frame in self._links.values():
+            frame.remove()

@@ -1,0 +1,140 @@
+"""What one browser client sees: robot, sensors, clouds and flow of one frame."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.estimates import Pair
+from app.scene.clouds_view import FLOW_NODE, SOURCE_NODE, TARGET_NODE, TRUTH_NODE, CloudsView
+from app.scene.first_view import first_view
+from app.scene.robot_view import ROOT, RobotView
+from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
+from app.scene.shapes import robot_shape
+from app.scene.stage import AXES, GRID, Stage, light
+from recordings import Recording
+
+LAYERS = {
+    "Robot": (ROOT,),
+    "Sensors": (SENSORS,),
+    "Fields of view": (FRUSTUMS,),
+    "Source": (SOURCE_NODE,),
+    "Target": (TARGET_NODE,),
+    "Flow": (FLOW_NODE,),
+    "Truth": (TRUTH_NODE,),
+    "Grid and axes": (GRID, AXES),
+}
+"""{layer: the nodes that it switches}."""
+
+
+@dataclass(frozen=True)
+class ViewSettings:
+    """How things are drawn, whatever was estimated.
+
+    Attributes:
+        arrow_scale: seconds; an arrow is as long as the way that is gone in them.
+        point_size: radius of a point, metres.
+        layers: those that are shown.
+    """
+
+    arrow_scale: float = 0.5
+    point_size: float = 0.004
+    layers: frozenset[str] = frozenset(LAYERS)
+
+
+class Scene:
+    """Draws on one client's scene. Everything is drawn by one thread.
+
+    Args:
+        client: the browser client.
+        settings: to begin with.
+    """
+
+    def __init__(self, client: viser.ClientHandle, settings: ViewSettings) -> None:
+        self._client = client
+        self._settings = settings
+        self._robot: RobotView | None = None
+        self._sensors: SensorsView | None = None
+        self._stage: Stage | None = None
+        self._shown: Pair | None = None
+        light(client.scene)
+        self._roots = {
+            name: client.scene.add_frame(name, show_axes=False)
+            for name in (ROOT, SENSORS, FRUSTUMS)
+        }
+        self._clouds = CloudsView(client.scene, settings.point_size)
+
+    def open(self, recording: Recording) -> None:
+        """Prepare the scene for a recording; a robot that looks the same is kept."""
+        shape = robot_shape(recording.robot) if recording.robot else None
+        if self._robot and (shape is None or shape.digest != self._robot.digest):
+            self._robot.remove()
+            self._robot = None
+        if shape and not self._robot:
+            self._robot = RobotView(self._client.scene, shape)
+        for part in (self._sensors, self._stage):
+            if part:
+                part.remove()
+        self._sensors = SensorsView(self._client.scene, recording.sensors)
+        self._stage = Stage(self._client.scene, recording.fixed_frame)
+        self._shown = None
+        self._show_layers()
+
+    def place_camera(self, pair: Pair, fixed_frame: str) -> None:
+        """Put the camera where the pair and its sensors are seen well."""
+        camera = self._client.camera
+        sensors = pair.target.T_fixed_sensor[:, :3, 3]
+        view = first_view(pair.target.points, sensors, fixed_frame, camera.fov)
+        camera.up_direction = view.up
+        camera.position = view.position
+        camera.look_at = view.look_at
+
+    def show(self, pair: Pair) -> None:
+        """Draw a pair; what has not changed since the last one is not sent again."""
+        before, self._shown = self._shown, pair
+        if before is None or before.target is not pair.target:
+            self._clouds.show_target(pair.target.points)
+            if self._robot:
+                self._robot.show(pair.link_poses)
+            if self._sensors:
+                self._sensors.show(pair.target.T_fixed_sensor)
+        if before is None or before.source is not pair.source:
+            self._clouds.show_source(pair.source.points if pair.source else np.zeros((0, 3)))
+        self._show_flow(pair)
+
+    def change(self, settings: ViewSettings) -> None:
+        """Draw the same pair with other settings."""
+        before, self._settings = self._settings, settings
+        if settings.point_size != before.point_size:
+            self._clouds.set_point_size(settings.point_size)
+        if settings.arrow_scale != before.arrow_scale and self._shown:
+            self._show_flow(self._shown)
+        if settings.layers != before.layers:
+            self._show_layers()
+
+    def _show_flow(self, pair: Pair) -> None:
+        seconds = self._settings.arrow_scale
+        none = np.zeros((0, 3))
+        if pair.source and pair.flow:
+            self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds)
+        else:
+            self._clouds.show_flow(none, none, seconds)
+        self._clouds.show_truth(*_truth_arrow(pair), seconds)
+
+    def _show_layers(self) -> None:
+        for layer, names in LAYERS.items():
+            for name in names:
+                node = self._client.scene.get_handle_by_name(name)
+                if node is not None:
+                    node.visible = layer in self._settings.layers
+
+
+def _truth_arrow(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Where the truth's arrow starts (3,), and the moving object's velocity (3,) if it moves."""
+    velocity = pair.object_velocity
+    if velocity is None or pair.source is None or len(pair.source.points) == 0:
+        return np.zeros(3), None
+    moving = pair.truly_moving
+    points = pair.source.points[moving] if moving.any() else pair.source.points
+    return points.mean(axis=0), velocity

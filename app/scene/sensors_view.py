@@ -1,0 +1,93 @@
+"""The sensors: red boxes and rings on the robot, and a frustum for each field of view."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.colours import FIELD_OF_VIEW, SENSOR
+from app.scene.placing import place
+from app.scene.shapes import ring_through
+from recordings import RecordedSensor
+
+SENSORS = "/sensors"
+FRUSTUMS = "/frustums"
+_BODY = (0.018, 0.012, 0.010)  # metres, wide enough to be seen on the robot
+_DEPTH = 0.11  # metres from a sensor to the base of its frustum
+
+
+class SensorsView:
+    """Draws the sensors of a recording; they follow T_fixed_sensor frame by frame."""
+
+    def __init__(self, scene: viser.SceneApi, sensors: Sequence[RecordedSensor]) -> None:
+        self._scene = scene
+        self._sensors = tuple(sensors)
+        self._ringed = False
+        self._bodies = [
+            scene.add_frame(f"{SENSORS}/{s.name}", show_axes=False, visible=False) for s in sensors
+        ]
+        for sensor in sensors:
+            scene.add_box(
+                f"{SENSORS}/{sensor.name}/body",
+                color=SENSOR,
+                dimensions=_BODY,
+                # The box lies behind the optical centre, where the chip is.
+                position=(0.0, 0.0, -_BODY[2] / 2),
+            )
+        self._frustums = [_add_frustum(scene, sensor) for sensor in sensors]
+
+    def show(self, poses: NDArray[np.float64]) -> None:
+        """Move the sensors to their poses T_fixed_sensor (S, 4, 4), NaN where not known."""
+        for body, frustum, pose in zip(self._bodies, self._frustums, poses, strict=True):
+            place(body, pose)
+            place(frustum, pose)
+        if not self._ringed and np.isfinite(poses).all():
+            self._add_rings(poses)
+            self._ringed = True
+
+    def remove(self) -> None:
+        """Take the sensors out of the scene."""
+        for node in (*self._bodies, *self._frustums):
+            node.remove()
+
+    def _add_rings(self, poses: NDArray[np.float64]) -> None:
+        """Add a band for each ring, fixed to the ring's first sensor."""
+        for ring in {sensor.ring: None for sensor in self._sensors if sensor.ring}:
+            members = [i for i, sensor in enumerate(self._sensors) if sensor.ring == ring]
+            band = ring_through(poses[members, :3, 3])
+            if band is not None:
+                band.apply_transform(np.linalg.inv(poses[members[0]]))
+                name = f"{SENSORS}/{self._sensors[members[0]].name}/ring"
+                self._scene.add_mesh_simple(name, band.vertices, band.faces, color=SENSOR)
+
+
+def _add_frustum(scene: viser.SceneApi, sensor: RecordedSensor) -> viser.CameraFrustumHandle:
+    half_width, half_height = half_extents(sensor.directions)
+    return scene.add_camera_frustum(
+        f"{FRUSTUMS}/{sensor.name}",
+        fov=2 * float(np.arctan(half_height)),
+        aspect=half_width / half_height,
+        # viser scales a frustum by its volume; this is what makes it _DEPTH long.
+        scale=_DEPTH * float(np.cbrt(half_width * half_height / 3)),
+        thickness=1.0,
+        thickness_units="screen",
+        color=FIELD_OF_VIEW,
+        visible=False,
+        cast_shadow=False,
+        receive_shadow=False,
+    )
+
+
+def half_extents(directions: NDArray[np.float64]) -> tuple[float, float]:
+    """Half width and half height of a field of view at a depth of 1.
+
+    Args:
+        directions: (rows, columns, 3) through the zones' centres, in the optical frame.
+    """
+    rows, columns = directions.shape[:2]
+    slopes = np.abs(directions[..., :2] / directions[..., 2:]).reshape(-1, 2).max(axis=0)
+    # The outermost zones' centres lie half a zone inside the field of view's edge.
+    width = slopes[0] * columns / max(columns - 1, 1)
+    height = slopes[1] * rows / max(rows - 1, 1)
+    return float(max(width, 0.01)), float(max(height, 0.01))

@@ -1,0 +1,92 @@
+"""Meshes in the form in which they go to the browser: small, and made once."""
+
+import hashlib
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from app.colours import Colour
+from robot_assets import Robot
+
+# Faces that meet at a sharper angle than this keep an edge; the others are shaded smoothly.
+_EDGE = np.radians(35.0)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A piece of one colour.
+
+    Attributes:
+        vertices: (V, 3) metres.
+        faces: (F, 3) rows of the vertices.
+        colour: red, green, blue, 0 to 255.
+    """
+
+    vertices: NDArray[np.float32]
+    faces: NDArray[np.uint32]
+    colour: Colour
+
+
+@dataclass(frozen=True)
+class RobotShape:
+    """What a robot looks like.
+
+    Attributes:
+        links: {link: its parts in the link's frame}.
+        digest: equal where two robots look the same.
+    """
+
+    links: dict[str, tuple[Part, ...]]
+    digest: str
+
+
+@lru_cache(maxsize=4)
+def robot_shape(robot: Robot) -> RobotShape:
+    """The visual meshes of a robot, a part for each link and colour, their vertices welded."""
+    links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
+    digest = hashlib.sha256()
+    for link, parts in links.items():
+        for part in parts:
+            digest.update(f"{link} {part.colour}".encode())
+            digest.update(part.vertices.tobytes() + part.faces.tobytes())
+    return RobotShape(links, digest.hexdigest())
+
+
+def ring_through(positions: NDArray[np.float64]) -> trimesh.Trimesh | None:
+    """A band, a torus, through three or more points (N, 3) on a circle, None where there are fewer.
+
+    The points may lie in any plane; the torus passes a little inside them.
+    """
+    if len(positions) < 3:
+        return None
+    centre = positions.mean(axis=0)
+    _, _, axes = np.linalg.svd(positions - centre)
+    radius = np.linalg.norm(positions - centre, axis=1).mean()
+    pose = np.eye(4)
+    pose[:3, :3] = np.array([axes[0], axes[1], np.cross(axes[0], axes[1])]).T
+    pose[:3, 3] = centre
+    torus = trimesh.creation.torus(
+        major_radius=0.97 * radius, minor_radius=0.006, major_sections=48, minor_sections=12
+    )
+    torus.apply_transform(pose)
+    return torus
+
+
+def _parts(mesh: trimesh.Trimesh) -> tuple[Part, ...]:
+    vertex_colours = np.asarray(mesh.visual.vertex_colors)  # type: ignore[union-attr]
+    colours, of_face = np.unique(vertex_colours[mesh.faces[:, 0], :3], axis=0, return_inverse=True)
+    parts: list[Part] = []
+    for index, colour in enumerate(colours):
+        piece = trimesh.Trimesh(mesh.vertices, mesh.faces[of_face.reshape(-1) == index])
+        piece = trimesh.graph.smooth_shade(piece, angle=_EDGE)
+        parts.append(
+            Part(
+                np.asarray(piece.vertices, dtype=np.float32),
+                np.asarray(piece.faces, dtype=np.uint32),
+                (int(colour[0]), int(colour[1]), int(colour[2])),
+            )
+        )
+    return tuple(parts)

@@ -1,0 +1,88 @@
+"""The web server: one session for each browser client."""
+
+import contextlib
+import io
+import socket
+
+import viser
+
+from app.colours import BRAND
+from app.errors import InputError
+from app.page import TITLE
+from app.session import Session, Shared
+
+_PANEL_WIDTH = 330  # pixels
+
+
+class _Server(viser.ViserServer):
+    def request_share_url(self, verbose: bool = True) -> None:
+        """Refuse: any page could ask for it, and it would make this port public."""
+
+
+class Server:
+    """Serves sessions until it is closed.
+
+    Args:
+        shared: what sessions share.
+        host: address to listen at.
+        port: port to listen at, 0 for any that is free.
+
+    Raises:
+        InputError: the port is in use, or there is no such address on this machine.
+    """
+
+    def __init__(self, shared: Shared, host: str, port: int) -> None:
+        _check_free(host, port)
+        self._sessions: dict[int, Session] = {}
+        # viser greets and takes its leave on the terminal; what people need, `view` tells them.
+        with contextlib.redirect_stdout(io.StringIO()):
+            self._server = _Server(host=host, port=port, verbose=False, label=TITLE)
+        self.host, self.port = host, self._server.get_port()
+        self._server.gui.configure_theme(
+            show_logo=False, show_share_button=False, brand_color=BRAND
+        )
+        self._server.gui.main_panel.dock_right()
+        self._server.gui.main_panel.set_width(_PANEL_WIDTH)
+
+        # Coroutines run in viser's event loop, one after the other, so that a client's end can
+        # never overtake its beginning.
+        @self._server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            self._sessions[client.client_id] = Session(client, shared)
+
+        @self._server.on_client_disconnect
+        async def _(client: viser.ClientHandle) -> None:
+            if session := self._sessions.pop(client.client_id, None):
+                session.close()
+
+    @property
+    def address(self) -> str:
+        """Where a browser on this machine finds the page."""
+        host = {"0.0.0.0": "127.0.0.1", "::": "::1", "": "127.0.0.1"}.get(self.host, self.host)
+        return f"http://[{host}]:{self.port}" if ":" in host else f"http://{host}:{self.port}"
+
+    def close(self) -> None:
+        """End all sessions and free the port."""
+        sessions = list(self._sessions.values())
+        for session in sessions:
+            session.close()
+        for session in sessions:
+            session.join(timeout=5.0)
+        with contextlib.redirect_stdout(io.StringIO()):
+            self._server.stop()
+
+
+def _check_free(host: str, port: int) -> None:
+    """Raise InputError where the port cannot be had; viser would quietly take another one."""
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        with socket.socket(family, kind, protocol) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(address)
+    except OSError as error:
+        raise InputError(
+            f"Nothing can be served at {host}, port {port} ({error.strerror}); "
+            f"choose another with --host and --port."
+        ) from error

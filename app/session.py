@@ -1,0 +1,129 @@
+"""A session: serves one browser client, in a thread of its own."""
+
+import logging
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from uuid import uuid4
+
+import viser
+
+from app.errors import UserError
+from app.estimates import Estimates
+from app.library import Library
+from app.mailbox import Mailbox
+from app.page import show_empty_page
+from app.reloads import Left, Reloads
+from app.wishes import OpenRecording, Seek
+from app.workbench import Workbench
+from estimator import Parameters
+
+_LOG = logging.getLogger(__name__)
+_TOKEN = "session"
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What all sessions use together; every part is safe under many threads.
+
+    Attributes:
+        library: the recordings.
+        estimates: what was computed already.
+        reloads: what ended sessions left.
+        parameters: with which a session begins.
+    """
+
+    library: Library
+    estimates: Estimates
+    reloads: Reloads
+    parameters: Parameters
+
+
+class Session:
+    """Serves one client: viser's callbacks post wishes, one thread fulfils them and draws.
+
+    Args:
+        client: the browser client.
+        shared: what sessions share.
+    """
+
+    def __init__(self, client: viser.ClientHandle, shared: Shared) -> None:
+        self._client = client
+        self._shared = shared
+        self._mailbox = Mailbox()
+        self._said = ""
+        self._thread = threading.Thread(target=self._run, name="session", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """End the session; its thread gives back what it holds."""
+        self._mailbox.close()
+
+    def join(self, timeout: float) -> None:
+        """Wait for a closed session's thread, `timeout` seconds at most."""
+        self._thread.join(timeout)
+
+    def _run(self) -> None:
+        try:
+            entries = self._shared.library.listing()
+            if not entries:
+                show_empty_page(self._client, [str(path) for path in self._shared.library.paths])
+                return
+            token, left = self._arrive()
+            workbench = Workbench(
+                self._client,
+                self._shared.library,
+                self._shared.estimates,
+                entries,
+                left.parameters if left else self._shared.parameters,
+                self._mailbox.post,
+            )
+            known = left is not None and left.label in [entry.label for entry in entries]
+            self._mailbox.post(OpenRecording(left.label if left and known else entries[0].label))
+            if left and known:
+                self._mailbox.post(Seek(left.frame))
+            try:
+                self._serve(workbench)
+            finally:
+                if leaving := workbench.close():
+                    self._shared.reloads.leave(token, leaving)
+        except Exception:
+            # A client that leaves while its page is being built takes everything with it.
+            _LOG.warning("A session could not begin.", exc_info=True)
+
+    def _arrive(self) -> tuple[str, Left | None]:
+        """A token for this session, and what the client's last session left."""
+        storage = self._client.local_storage
+        token = str(uuid4())
+        try:
+            left = self._shared.reloads.take(storage.get_item(_TOKEN, timeout=2.0))
+        except (RuntimeError, TimeoutError):
+            left = None  # a browser that stores nothing begins anew
+        storage.set_item(_TOKEN, token)
+        return token, left
+
+    def _serve(self, workbench: Workbench) -> None:
+        while (wishes := self._mailbox.take(workbench.wait())) is not None:
+            fine = [self._try(lambda wish=wish: workbench.fulfil(wish)) for wish in wishes]
+            fine.append(self._try(workbench.draw))
+            if all(fine):
+                self._said = ""
+
+    def _try(self, action: Callable[[], None]) -> bool:
+        """Do something; what goes wrong is told to the person, and the session goes on."""
+        try:
+            action()
+        except UserError as error:
+            self._say(str(error))
+        except Exception as error:
+            _LOG.debug("An unexpected error.", exc_info=True)
+            self._say(f"Something unexpected went wrong ({type(error).__name__}: {error}).")
+        else:
+            return True
+        return False
+
+    def _say(self, sentence: str) -> None:
+        # A recording that is broken at every frame complains once, not at every frame.
+        if sentence != self._said:
+            self._said = sentence
+            self._client.add_notification("Tofscope", sentence, color="red", auto_close_seconds=15)
