@@ -1,0 +1,32 @@
+"""Methods by name."""
+
+import subprocess
+import sys
+
+import pytest
+
+from estimator.baseline import baseline
+from estimator.methods import method, method_names
+from estimator.paper import algorithm_1
+
+
+def test_the_papers_method_comes_first():
+    assert method_names()[:2] == ("paper", "baseline")
+
+
+def test_a_name_leads_to_its_function():
+    assert method("paper") is algorithm_1
+    assert method("baseline") is baseline
+
+
+def test_there_is_no_method_of_another_name():
+    with pytest.raises(KeyError):
+        method("")
+
+
+def test_naming_the_methods_loads_neither_open3d_nor_scikit_learn():
+    code = (
+        "import sys, estimator; estimator.Parameters(method='baseline');"
+        "sys.exit(bool({'open3d', 'sklearn'} & set(sys.modules)))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
