@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -50,7 +51,7 @@ def cloud_pair(
     Raises:
         CloudError: a wrong shape or type, or an interval that is not a finite number above zero.
     """
-    if not math.isfinite(interval) or interval <= 0:
+    if not isinstance(interval, Real) or not math.isfinite(interval) or interval <= 0:
         raise CloudError(
             f"The interval must be a finite number of seconds above 0, got {interval!r}."
         )
@@ -63,7 +64,7 @@ def _points(name: str, cloud: ArrayLike | HasPoints) -> NDArray[np.float64]:
         points = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise CloudError(f"The {name} must hold numbers: {error}.") from error
-    if points.size == 0:
+    if points.shape == (0,):  # an empty list says nothing of its columns
         return np.zeros((0, 3))
     if points.ndim != 2 or points.shape[1] != 3:
         raise CloudError(f"The {name} must have the shape (N, 3), got {points.shape}.")
