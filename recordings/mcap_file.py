@@ -140,7 +140,9 @@ class McapFile:
             self._chunks.move_to_end(start)
             return self._chunks[start]
         self._stream.seek(start + _RECORD_HEAD.size)
-        stream, _ = get_chunk_data_stream(Chunk.read(ReadDataStream(self._stream)))
+        stream, _ = get_chunk_data_stream(
+            Chunk.read(ReadDataStream(self._stream)), validate_crc=True
+        )
         data = stream.read(_rest(stream))
         self._chunks[start] = data
         while len(self._chunks) > 1 and sum(map(len, self._chunks.values())) > _CACHED_BYTES:
@@ -236,7 +238,7 @@ def _take(contents: _Contents, opcode: int, record: bytes, position: int) -> Non
 
 
 def _take_chunk(contents: _Contents, chunk: Chunk, position: int) -> None:
-    inner, _ = get_chunk_data_stream(chunk)
+    inner, _ = get_chunk_data_stream(chunk, validate_crc=True)
     data = inner.read(_rest(inner))
     offset = 0
     while offset + _RECORD_HEAD.size <= len(data):

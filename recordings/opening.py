@@ -71,7 +71,7 @@ def _open(
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, file, decoder, table.stamps)
     if file.cut_short:
-        warnings.append("The file ends early; what it holds up to there is used.")
+        warnings.append("The file is cut short; what it holds up to there is used.")
 
     names = joint_names(topics, decoder)
     if robot is None:

@@ -1,0 +1,129 @@
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.command_line import main
+from tests.estimator.judge import judge
+from tests.recordings.foreign import ForeignFile, image
+from tests.recordings.room import Room, write_room
+
+
+def by_hand(room: Room, gate: bool) -> dict[str, float]:
+    """The paper's errors of a room, by the judge and plain loops."""
+    angles, errors = [], []
+    for k in range(8, len(room.points)):
+        source, target = room.points[k - 8], room.points[k]
+        interval = (room.stamps[k] - room.stamps[k - 8]) * 1e-9
+        _, velocity = judge(source, target, interval, gate=gate)
+        for v in velocity[np.isfinite(velocity).all(axis=1)]:
+            cosine = v @ room.velocity / (np.linalg.norm(v) * np.linalg.norm(room.velocity))
+            angles.append(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
+            errors.append(np.linalg.norm(v - room.velocity))
+    return {
+        "points_with_flow": len(angles),
+        "angle_deg": float(np.mean(angles)),
+        "velocity_error": float(np.mean(errors)),
+    }
+
+
+@pytest.mark.parametrize(("method", "gate"), [("paper", True), ("baseline", False)])
+def test_errors_are_those_of_an_independent_implementation(
+    tmp_path: Path, method: str, gate: bool, capsys: pytest.CaptureFixture[str]
+):
+    room = write_room(tmp_path / "room.mcap", frames=12)
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(room.path), "--method", method, "--json", str(table)]) == 0
+    content = json.loads(table.read_text())
+    row = content["recordings"][0]
+    assert content["parameters"]["method"] == method
+    assert row["pairs"] == 4
+    assert row["coverage"] is row["precision"] is row["epe3d"] is row["scenario"] is None
+    expected = by_hand(room, gate)
+    assert expected["points_with_flow"] > 100
+    assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-6)
+    assert "room" in capsys.readouterr().out
+
+
+def test_a_recording_without_truth_gets_a_row_of_nulls_and_a_warning(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    file = ForeignFile()
+    for k in range(3):
+        message = image(k * 66_000_000, "eye", np.full((8, 8), 900, "<u2"), "16UC1")
+        file.add("/eye/image", "sensor_msgs/msg/Image", message, k)
+    blind = file.write(tmp_path / "blind.mcap")
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(blind), "--json", str(table)]) == 1
+    row = json.loads(table.read_text())["recordings"][0]
+    assert row["path"] == str(blind)
+    assert all(value is None for key, value in row.items() if key != "path")
+    assert "blind.mcap: It has no truth" in capsys.readouterr().err
+
+    room = write_room(tmp_path / "room.mcap", frames=9).path
+    assert main(["evaluate", str(blind), str(room)]) == 0
+
+
+def test_a_folder_is_all_its_recordings_and_a_bad_one_does_not_stop_the_rest(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    write_room(tmp_path / "good.mcap", frames=9)
+    (tmp_path / "bad.mcap").write_bytes(b"nonsense")
+    table = tmp_path / "out" / "table.json"
+    table.parent.mkdir()
+    assert main(["evaluate", str(tmp_path), "--json", str(table)]) == 0
+    rows = json.loads(table.read_text())["recordings"]
+    assert [Path(row["path"]).stem for row in rows] == ["bad", "good"]
+    assert rows[0]["pairs"] is None
+    assert rows[1]["pairs"] == 1
+    assert "not an MCAP file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nowhere.mcap"], "There is no file or folder nowhere.mcap"),
+        ([".", "--n", "0"], "n must be between 1 and 1000 frames, got 0"),
+        ([".", "--gamma", "1.5"], "gamma must be between 0 and 1, got 1.5"),
+        ([".", "--rig", "nothing.toml"], "nothing.toml cannot be read as a rig file"),
+        ([".", "--urdf", "nothing.urdf"], "nothing.urdf cannot be read as a URDF"),
+        ([".", "--json", "nowhere/table.json"], "nowhere/table.json cannot be written"),
+    ],
+)
+def test_wrong_arguments_are_one_sentence(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    said: str,
+):
+    write_room(tmp_path / "room.mcap", frames=2)
+    monkeypatch.chdir(tmp_path)
+    assert main(["evaluate", *arguments]) == 1
+    last = capsys.readouterr().err.strip().splitlines()[-1]
+    assert last.startswith("tofscope evaluate: ")
+    assert said in last
+
+
+def test_unknown_flags_are_one_sentence(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit) as stop:
+        main(["evaluate", ".", "--nonsense"])
+    assert stop.value.code == 2
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def test_real_flights_give_errors_for_all_four(shared_data: Path, tmp_path: Path):
+    flights = sorted((shared_data / "matrix_tof_flights").glob("approach_*.mcap"))
+    table = tmp_path / "flights.json"
+    arguments = ["--fixed-frame", "tof_front_optical_frame", "--truth-frame", "surface"]
+    arguments += ["--n", "3", "--n-min", "10", "--min-cluster-size", "10"]
+    arguments += ["--allow-single-cluster", "--max-correspondence-distance", "0.25"]
+    code = main(["evaluate", *map(str, flights), *arguments, "--json", str(table)])
+    rows = json.loads(table.read_text())["recordings"]
+    assert code == 0
+    assert len(rows) == 4
+    for row in rows:
+        assert row["pairs"] > 100
+        assert 5 < row["angle_deg"] < 40
+        assert 0.05 < row["velocity_error"] < 0.5

@@ -1,0 +1,80 @@
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from recordings import RecordedSensor, RecordingError
+from recordings.sensors import pixels, readings, short_name
+from robot_assets import SensorModel
+
+SENSOR = RecordedSensor(
+    "eye", "", "eye", SensorModel().directions, lambda values: values, (0.0, np.inf)
+)
+COUNTING = np.arange(64).reshape(8, 8)
+
+
+def picture(values: np.ndarray, encoding: str, **more: object) -> SimpleNamespace:
+    fields = {
+        "header": SimpleNamespace(frame_id="eye"),
+        "encoding": encoding,
+        "is_bigendian": values.dtype.byteorder == ">",
+        "step": 8 * values.dtype.itemsize,
+        "data": np.frombuffer(values.tobytes(), np.uint8),
+    }
+    return SimpleNamespace(**(fields | more))
+
+
+def test_16_bits_are_millimetres_with_0_for_invalid():
+    values = readings(picture(COUNTING.astype("<u2"), "16UC1"), None, SENSOR)
+    assert np.isnan(values[0, 0])
+    assert values[7, 7] == pytest.approx(0.063)
+
+
+def test_32_bits_are_metres_with_nan_for_invalid():
+    metres = COUNTING.astype("<f4")
+    metres[3, 3] = np.nan
+    metres[3, 4] = np.inf
+    values = readings(picture(metres, "32FC1"), None, SENSOR)
+    assert np.isnan(values[[0, 3, 3], [0, 3, 4]]).all()
+    assert values[7, 7] == 63.0
+
+
+def test_big_endian_and_padded_rows_are_read():
+    big = picture(COUNTING.astype(">u2"), "mono16")
+    assert readings(big, None, SENSOR)[7, 7] == pytest.approx(0.063)
+    padded = np.zeros((8, 12), "<u2")
+    padded[:, :8] = COUNTING
+    image = picture(padded, "16UC1", step=24)
+    assert readings(image, None, SENSOR)[7, 7] == pytest.approx(0.063)
+
+
+def test_an_image_with_too_few_bytes_is_refused():
+    image = picture(COUNTING.astype("<u2"), "16UC1", data=np.zeros(100, np.uint8))
+    with pytest.raises(RecordingError, match="100 bytes"):
+        pixels(image, np.dtype("u2"))
+
+
+def test_only_valid_status_counts_whatever_the_distance_says():
+    status = np.full((8, 8), 255, np.uint8)
+    status[1, 1], status[2, 2], status[3, 3] = 5, 9, 4
+    image = picture(np.full((8, 8), 1000, "<u2"), "16UC1")
+    values = readings(image, picture(status, "8UC1"), SENSOR)
+    assert np.argwhere(np.isfinite(values)).tolist() == [[1, 1], [2, 2]]
+
+
+def test_the_models_order_and_limits_are_applied():
+    model = SensorModel(flip_vertical=True, flip_horizontal=True)
+    sensor = replace(SENSOR, arrange=model.arrange, limits=(0.01, 0.06))
+    values = readings(picture(COUNTING.astype("<u2"), "16UC1"), None, sensor)
+    assert np.isnan(values[0, :3]).all()
+    assert values[0, 3] == pytest.approx(0.060)
+    assert np.isnan(values[7, 0])
+
+
+@pytest.mark.parametrize(
+    ("topic", "name"),
+    [("/tof/base/0/image", "base/0"), ("/image", "image"), ("/skin/s3/depth", "skin/s3")],
+)
+def test_a_sensor_is_called_after_its_topic(topic: str, name: str):
+    assert short_name(topic) == name
