@@ -8,6 +8,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+_FARTHEST = 1e100  # metres; squares of what is larger overflow, and HDBSCAN then never returns
+
 
 class CloudError(ValueError):
     """A cloud or an interval from which nothing can be estimated."""
@@ -68,4 +70,7 @@ def _points(name: str, cloud: ArrayLike | HasPoints) -> NDArray[np.float64]:
         return np.zeros((0, 3))
     if points.ndim != 2 or points.shape[1] != 3:
         raise CloudError(f"The {name} must have the shape (N, 3), got {points.shape}.")
+    farthest = np.abs(points, where=np.isfinite(points), out=np.zeros_like(points)).max(initial=0.0)
+    if farthest > _FARTHEST:
+        raise CloudError(f"The {name} must lie within {_FARTHEST:g} m, got {farthest:g} m.")
     return points

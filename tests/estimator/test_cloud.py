@@ -62,6 +62,12 @@ def test_what_holds_no_numbers_is_refused(points):
         cloud_pair(ONE, points, 0.5)
 
 
+def test_lengths_whose_squares_overflow_are_refused():
+    with pytest.raises(CloudError, match=r"^The target must lie within 1e\+100 m, got 1e\+200 m\."):
+        cloud_pair(ONE, [[0.0, -1e200, np.nan]], 0.5)
+    assert cloud_pair(ONE, [[0.0, 1e100, np.inf]], 0.5).target[0, 1] == 1e100
+
+
 @pytest.mark.parametrize("interval", [0, 0.0, -0.5, math.nan, math.inf, -math.inf, None, "1", [1]])
 def test_an_interval_is_a_number_of_seconds_above_zero(interval):
     with pytest.raises(CloudError, match=r"^The interval must be a finite number of seconds"):
