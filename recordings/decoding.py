@@ -1,6 +1,7 @@
 """From the bytes of a message to its fields: ROS 2's CDR, by the schema in the file."""
 
 import struct
+import threading
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ class Decoder:
         self._file = file
         self._store = get_typestore(Stores.EMPTY)
         self._known: set[str] = set()
+        self._lock = threading.Lock()
         self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""))
 
     def can_decode(self, channel: ChannelInfo) -> bool:
@@ -63,15 +65,16 @@ class Decoder:
             ) from error
 
     def _register(self, channel: ChannelInfo) -> None:
-        if channel.schema_name in self._known:
-            return
-        text = channel.schema_data.decode("utf-8")
-        if channel.schema_encoding == "ros2idl":
-            types = get_types_from_idl(text)
-        else:
-            types = get_types_from_msg(text, channel.schema_name)
-        self._store.register({k: v for k, v in types.items() if k not in self._store.types})
-        self._known.add(channel.schema_name)
+        with self._lock:
+            if channel.schema_name in self._known:
+                return
+            text = channel.schema_data.decode("utf-8")
+            if channel.schema_encoding == "ros2idl":
+                types = get_types_from_idl(text)
+            else:
+                types = get_types_from_msg(text, channel.schema_name)
+            self._store.register({k: v for k, v in types.items() if k not in self._store.types})
+            self._known.add(channel.schema_name)
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)

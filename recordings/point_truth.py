@@ -1,7 +1,7 @@
 """The truth of every point, where a recording has it."""
 
-from collections import OrderedDict
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -38,7 +38,7 @@ class PointTruths:
     def __init__(self, topic: Topic, decoder: Decoder, stamps: Stamps, tolerance: float) -> None:
         self._topic, self._decoder = topic, decoder
         self._message = _nearest(decoder.header_stamps(topic.channel), stamps, tolerance)
-        self._frames: OrderedDict[int, _FrameTruth | None] = OrderedDict()
+        self._frame = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
 
     def at(self, k: int, cloud: Cloud) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
         """Velocity (N, 3) m/s and object (N,) of each point of a frame's cloud.
@@ -84,15 +84,10 @@ class PointTruths:
             velocity[objects == number] += np.average(means, axis=0, weights=weights) - means[0]
         return velocity
 
-    def _frame(self, k: int) -> _FrameTruth | None:
-        if k not in self._frames:
-            index = int(self._message[k])
-            self._frames[k] = None if index < 0 else self._read(index)
-            while len(self._frames) > _CACHED_FRAMES:
-                self._frames.popitem(last=False)
-        return self._frames[k]
-
-    def _read(self, index: int) -> _FrameTruth:
+    def _read(self, k: int) -> _FrameTruth | None:
+        index = int(self._message[k])
+        if index < 0:
+            return None
         table = fields_of(self._decoder.decode(self._topic.channel, index))
         velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
         numbers = np.unique(table["object"]).tolist()

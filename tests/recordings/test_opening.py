@@ -1,4 +1,5 @@
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -236,3 +237,13 @@ def test_real_flights_open_and_their_panel_stands_still_in_the_world(shared_data
         assert np.mean([len(cloud.points) for cloud in clouds]) < 40
         speeds = [v for k in range(len(recording)) if (v := recording.truth(k)) is not None]
         assert np.max(np.linalg.norm(speeds, axis=1)) > 0.4
+
+
+def test_a_recording_may_be_read_from_many_threads(tmp_path: Path):
+    path = write_room(tmp_path / "room.mcap").path
+    with open_recording(path) as one, open_recording(path) as many:
+        expected = [one.cloud(k).points for k in range(len(one))]
+        order = np.random.default_rng(0).integers(0, len(many), 200).tolist()
+        with ThreadPoolExecutor(8) as pool:
+            for k, cloud in zip(order, pool.map(many.cloud, order), strict=True):
+                np.testing.assert_array_equal(cloud.points, expected[k])
