@@ -51,7 +51,7 @@ def cloud_pair(
         interval: seconds between the two stamps.
 
     Raises:
-        CloudError: a wrong shape or type, or an interval that is not a finite number above zero.
+        CloudError: a wrong shape, type or size; an interval that is no finite number above zero.
     """
     if not isinstance(interval, Real) or not math.isfinite(interval) or interval <= 0:
         raise CloudError(
