@@ -71,6 +71,14 @@ class Pair:
         return errors.metrics()
 
 
+def warm_up() -> None:
+    """Load what the first estimate needs, so that it need not wait for it."""
+    steps = np.linspace(0.0, 0.1, 6)
+    patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
+    cloud = np.vstack([patch, patch + 2.0])
+    estimate_scene_flow(cloud, cloud, 1.0, Parameters())
+
+
 class Estimates:
     """Clouds and flows, bounded in number, for all sessions.
 

@@ -50,9 +50,7 @@ class Page:
         recording, label = opened.recording, opened.entry.label
         self.recordings.show(opened)
         self.playback.open(len(recording))
-        self._client.gui.set_panel_label(
-            f"{TITLE}: {label} (simulated)" if recording.simulated else f"{TITLE}: {label}"
-        )
+        self._client.gui.set_panel_label(f"{TITLE} (simulated)" if recording.simulated else TITLE)
         for warning in recording.warnings:
             self._client.add_notification(label, warning, color="yellow", auto_close_seconds=15)
 

@@ -117,7 +117,7 @@ class Workbench:
         with self._client.atomic():
             self._scene.show(pair)
             if self._drawn is None or self._drawn[0] is not opened:
-                self._scene.place_camera(pair, opened.recording.fixed_frame)
+                self._scene.place_camera(pair)
         self._page.status.show(pair, self._parameters, simulated=opened.recording.simulated)
         if problem is not None:
             raise problem
@@ -175,6 +175,8 @@ class Workbench:
 
 
 def opening_frame(recording: Recording, n: int) -> int:
-    """The first frame whose pair lies within a motion, or else the first that has a pair."""
-    moving = next(counting_pairs(recording, n), None)
-    return moving[1] if moving else min(n, len(recording) - 1)
+    """The frame in the middle of the motion, or of the recording where no motion is known."""
+    moving = list(counting_pairs(recording, n))
+    if moving:
+        return moving[len(moving) // 2][1]
+    return min(max(n, len(recording) // 2), len(recording) - 1)

@@ -42,7 +42,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until somebody ends it."""
     # viser takes a second to import, which `tofscope --help` need not wait for.
-    from app.estimates import Estimates
+    from app.estimates import Estimates, warm_up
     from app.library import Library
     from app.reloads import Reloads
     from app.server import Server
@@ -67,6 +67,7 @@ def run(options: argparse.Namespace) -> int:
                 file=sys.stderr,
             )
         print(f"Tofscope is at {server.address}", flush=True)
+        warm_up()
         ended.wait()
     finally:
         server.close()

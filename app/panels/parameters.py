@@ -42,7 +42,7 @@ class ParametersPanel:
                 for name in _DEFAULTS:
                     if not PARAMETER_INFO[name].slider:
                         self._controls[name] = _add_field(gui, name, getattr(parameters, name))
-            reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE)
+            reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE, color="gray")
 
         for name, control in self._controls.items():
             control.on_update(lambda event, name=name: self._post(event, name, post))
@@ -88,7 +88,10 @@ def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN
         max=kind(high),
         step=kind(step),
         initial_value=kind(value),
-        marks=((kind(low), f"{low:g}"), (kind(high), f"{high:g} {info.unit}".strip())),
+        marks=(
+            (kind(low), f"{low:g}"),
+            (kind(high), f"{high:g} m" if info.unit == "m" else f"{high:g}"),
+        ),
         hint=_hint(name),
     )
 

@@ -53,7 +53,7 @@ class PlaybackPanel:
         self._slider.value = frame
         self._time.content = (
             '<div style="font-size: 0.75rem; padding: 0 1em; opacity: 0.75">'
-            f"Frame {frame} of 0 to {frames - 1}, {seconds:.2f} s</div>"
+            f"Frame {frame} of {frames - 1}, at {seconds:.2f} s</div>"
         )
         self._play.label = "Pause" if playing else "Play"
         self._play.icon = Icon.PLAYER_PAUSE if playing else Icon.PLAYER_PLAY

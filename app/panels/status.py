@@ -1,5 +1,6 @@
 """What was seen in the pair, in numbers."""
 
+from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -7,7 +8,16 @@ import viser
 
 from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
 from app.estimates import Pair
-from estimator import Label, Parameters, SceneFlow
+from estimator import Label, Parameters
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One thing that is said about a pair, with its colour in the scene if it has one."""
+
+    name: str
+    value: str
+    colour: Colour | None = None
 
 
 class StatusPanel:
@@ -19,69 +29,70 @@ class StatusPanel:
 
     def __init__(self, gui: viser.GuiApi) -> None:
         with gui.add_folder("Status"):
-            self._table = gui.add_html("")
+            self._content = gui.add_html("")
 
     def show(self, pair: Pair, parameters: Parameters, *, simulated: bool) -> None:
         """Show a pair."""
-        rows = status_rows(pair, parameters)
-        cells = "".join(
-            f"<tr><td>{_mark(colour)}{escape(name)}</td>"
-            f'<td style="text-align: right; font-variant-numeric: tabular-nums">'
-            f"{escape(value)}</td></tr>"
-            for name, value, colour in rows
-        )
-        note = "<div>Simulated data</div>" if simulated else ""
-        self._table.content = (
-            '<div style="font-size: 0.8rem; padding: 0 1em; line-height: 1.45">'
-            f'<table style="width: 100%; border-collapse: collapse">{cells}</table>{note}</div>'
+        lines = [f"<div>{escape(text)}</div>" for text in notes(pair, parameters)]
+        said = facts(pair)
+        if simulated:
+            said.append(Fact("Data", "simulated"))
+        cells = "".join(_cell(fact) for fact in said)
+        self._content.content = (
+            '<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.5">'
+            f'<div style="display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em">{cells}'
+            f"</div>{''.join(lines)}</div>"
         )
 
 
-def status_rows(pair: Pair, parameters: Parameters) -> list[tuple[str, str, Colour | None]]:
-    """(name, value, colour of the legend) of everything that is said about a pair."""
-    rows: list[tuple[str, str, Colour | None]] = [
-        ("Target points", str(len(pair.target.points)), TARGET)
+def facts(pair: Pair) -> list[Fact]:
+    """The numbers of a pair, in the order in which they are read, two in a row."""
+    source = len(pair.source.points) if pair.source else 0
+    found = [
+        Fact("Source", str(source), SOURCE),
+        Fact("Target", str(len(pair.target.points)), TARGET),
     ]
-    if pair.source is None:
-        said = f"no pair: frame k-n = {pair.frame - parameters.n} is before the start"
-        return [*rows, (said, "", None)]
-    rows.insert(0, ("Source points", str(len(pair.source.points)), SOURCE))
     if pair.flow is None:
-        return [*rows, ("no estimate", "", None)]
-    rows += [
-        ("Moving", str(_count(pair.flow, Label.MOVING)), FLOW),
-        ("Stationary", str(_count(pair.flow, Label.STATIONARY)), None),
-        ("Unassigned", str(_count(pair.flow, Label.UNASSIGNED)), None),
-        ("Clusters", str(len(pair.flow.clusters)), None),
-        ("Interval", f"{pair.interval:.3f} s", None),
-        ("Estimate", f"{pair.milliseconds:.0f} ms", None),
+        return found
+    labels = pair.flow.label
+    found += [
+        Fact("Moving", str(np.count_nonzero(labels == Label.MOVING)), FLOW),
+        Fact("Stationary", str(np.count_nonzero(labels == Label.STATIONARY))),
+        Fact("Clusters", str(len(pair.flow.clusters))),
+        Fact("Unassigned", str(np.count_nonzero(labels == Label.UNASSIGNED))),
+        Fact("Interval", f"{pair.interval:.3f} s"),
+        Fact("Estimate", f"{pair.milliseconds:.0f} ms"),
     ]
-    return rows + _against_truth(pair)
-
-
-def _against_truth(pair: Pair) -> list[tuple[str, str, Colour | None]]:
-    if pair.truth is None:
-        return []
-    if pair.object_velocity is None:
-        return [("True velocity", "at rest", TRUTH)]
-    speed = float(np.linalg.norm(pair.object_velocity))
-    rows: list[tuple[str, str, Colour | None]] = [("True velocity", f"{speed:.3f} m/s", TRUTH)]
+    if pair.object_velocity is not None:
+        found.append(Fact("Truth", f"{np.linalg.norm(pair.object_velocity):.3f} m/s", TRUTH))
     errors = pair.errors
     if errors is not None and errors.points_with_flow > 0:
-        rows += [
-            ("Angle error", f"{errors.angle_deg:.1f}°", None),
-            ("Velocity error", f"{errors.velocity_error:.3f} m/s", None),
+        found += [
+            Fact("Angle error", f"{errors.angle_deg:.1f}°"),
+            Fact("Vel. error", f"{errors.velocity_error:.3f} m/s"),
         ]
-    return rows
+    return found
 
 
-def _count(flow: SceneFlow, label: Label) -> int:
-    return int(np.count_nonzero(flow.label == label))
+def notes(pair: Pair, parameters: Parameters) -> list[str]:
+    """What the numbers cannot say, in short sentences."""
+    if pair.source is None:
+        missing = pair.frame - parameters.n
+        return [f"No pair: frame k-n = {missing} is before the start."]
+    said: list[str] = []
+    if pair.flow is None:
+        said.append("No estimate.")
+    if pair.truth is not None and pair.object_velocity is None:
+        said.append("The moving object is at rest.")
+    return said
 
 
-def _mark(colour: Colour | None) -> str:
-    background = css(colour) if colour else "transparent"
+def _cell(fact: Fact) -> str:
+    background = css(fact.colour) if fact.colour else "transparent"
     return (
-        '<span style="display: inline-block; width: 0.65em; height: 0.65em; border-radius: 50%;'
-        f' margin-right: 0.5em; background: {background}"></span>'
+        '<div style="display: flex; align-items: center; white-space: nowrap">'
+        '<span style="width: 0.6em; height: 0.6em; border-radius: 50%; margin-right: 0.5em;'
+        f' flex: none; background: {background}"></span>'
+        f'<span style="flex: 1">{escape(fact.name)}</span>'
+        f'<span style="font-variant-numeric: tabular-nums">{escape(fact.value)}</span></div>'
     )

@@ -5,11 +5,12 @@ import viser
 from numpy.typing import NDArray
 
 from app.colours import FLOW, SOURCE, TARGET, TRUTH
+from app.scene.stage import FIXED
 
-SOURCE_NODE = "/source"
-TARGET_NODE = "/target"
-FLOW_NODE = "/flow"
-TRUTH_NODE = "/truth"
+SOURCE_NODE = f"{FIXED}/source"
+TARGET_NODE = f"{FIXED}/target"
+FLOW_NODE = f"{FIXED}/flow"
+TRUTH_NODE = f"{FIXED}/truth"
 
 _HEAD = 0.025  # metres, an arrow's head at most
 _NONE = np.zeros((0, 2, 3), dtype=np.float32)

@@ -6,9 +6,10 @@ import viser
 
 from app.scene.placing import UNKNOWN, place
 from app.scene.shapes import RobotShape
+from app.scene.stage import FIXED
 from robot_assets import Transform
 
-ROOT = "/robot"
+ROOT = f"{FIXED}/robot"
 
 
 class RobotView:

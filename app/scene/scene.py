@@ -12,7 +12,7 @@ from app.scene.first_view import first_view
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.shapes import robot_shape
-from app.scene.stage import AXES, GRID, Stage, light
+from app.scene.stage import AXES, GRID, Stage, upright
 from recordings import Recording
 
 LAYERS = {
@@ -56,9 +56,9 @@ class Scene:
         self._settings = settings
         self._robot: RobotView | None = None
         self._sensors: SensorsView | None = None
-        self._stage: Stage | None = None
         self._shown: Pair | None = None
-        light(client.scene)
+        self._turn = np.eye(3)
+        self._stage = Stage(client.scene)
         self._roots = {
             name: client.scene.add_frame(name, show_axes=False)
             for name in (ROOT, SENSORS, FRUSTUMS)
@@ -73,20 +73,18 @@ class Scene:
             self._robot = None
         if shape and not self._robot:
             self._robot = RobotView(self._client.scene, shape)
-        for part in (self._sensors, self._stage):
-            if part:
-                part.remove()
+        if self._sensors:
+            self._sensors.remove()
         self._sensors = SensorsView(self._client.scene, recording.sensors)
-        self._stage = Stage(self._client.scene, recording.fixed_frame)
+        self._turn = upright(recording.fixed_frame)
+        self._stage.turn(self._turn)
         self._shown = None
-        self._show_layers()
 
-    def place_camera(self, pair: Pair, fixed_frame: str) -> None:
+    def place_camera(self, pair: Pair) -> None:
         """Put the camera where the pair and its sensors are seen well."""
         camera = self._client.camera
-        sensors = pair.target.T_fixed_sensor[:, :3, 3]
-        view = first_view(pair.target.points, sensors, fixed_frame, camera.fov)
-        camera.up_direction = view.up
+        poses = pair.target.T_fixed_sensor
+        view = first_view(pair.target.points, poses, self._turn, camera.fov)
         camera.position = view.position
         camera.look_at = view.look_at
 
@@ -137,4 +135,4 @@ def _truth_arrow(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64] |
         return np.zeros(3), None
     moving = pair.truly_moving
     points = pair.source.points[moving] if moving.any() else pair.source.points
-    return points.mean(axis=0), velocity
+    return np.median(points, axis=0), velocity

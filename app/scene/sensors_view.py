@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from app.colours import FIELD_OF_VIEW, SENSOR
 from app.scene.placing import place
 from app.scene.shapes import ring_through
+from app.scene.stage import FIXED
 from recordings import RecordedSensor
 
-SENSORS = "/sensors"
-FRUSTUMS = "/frustums"
+SENSORS = f"{FIXED}/sensors"
+FRUSTUMS = f"{FIXED}/frustums"
 _BODY = (0.018, 0.012, 0.010)  # metres, wide enough to be seen on the robot
 _DEPTH = 0.11  # metres from a sensor to the base of its frustum
 

@@ -1,14 +1,52 @@
-"""What stands in every scene: light, grid and axes."""
+"""What stands in every scene: light, grid and axes, and which way is up."""
 
+import numpy as np
 import viser
+import viser.transforms as vtf
+from numpy.typing import NDArray
 
-from app.scene.first_view import up_of
+FIXED = "/fixed"
+"""The node of the fixed frame: whatever a recording holds is drawn below it."""
 
 GRID = "/grid"
-AXES = "/axes"
+AXES = f"{FIXED}/axes"
 
 
-def light(scene: viser.SceneApi) -> None:
+class Stage:
+    """Light, a grid, and the fixed frame with its axes."""
+
+    def __init__(self, scene: viser.SceneApi) -> None:
+        _light(scene)
+        self._fixed = scene.add_frame(FIXED, show_axes=False)
+        scene.add_frame(AXES, axes_length=0.12, axes_radius=0.004, origin_radius=0.0)
+        scene.add_grid(
+            GRID,
+            width=8.0,
+            height=8.0,
+            cell_size=0.25,
+            cell_color=(228, 231, 236),
+            section_size=1.0,
+            section_color=(200, 205, 214),
+            shadow_opacity=0.0,
+            fade_distance=9.0,
+        )
+
+    def turn(self, R_drawing_fixed: NDArray[np.float64]) -> None:
+        """Draw the fixed frame turned by a rotation (3, 3)."""
+        self._fixed.wxyz = vtf.SO3.from_matrix(R_drawing_fixed).wxyz
+
+
+def upright(fixed_frame: str) -> NDArray[np.float64]:
+    """R_drawing_fixed (3, 3), whose drawing has its z axis up.
+
+    An optical frame has z forward and y down (REP 103); every other one has z up already.
+    """
+    if fixed_frame.endswith("optical_frame"):
+        return np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+    return np.eye(3)
+
+
+def _light(scene: viser.SceneApi) -> None:
     """Even light from the sky and two lamps, cheaper than an environment map and its shadows."""
     scene.configure_environment_map(None)
     scene.configure_default_lights(enabled=False)
@@ -21,29 +59,3 @@ def light(scene: viser.SceneApi) -> None:
     scene.add_light_directional(
         "/lights/fill", intensity=0.6, position=(-3.0, 2.0, 2.5), color=(235, 242, 255)
     )
-
-
-class Stage:
-    """The grid through the fixed frame's origin and its axes."""
-
-    def __init__(self, scene: viser.SceneApi, fixed_frame: str) -> None:
-        up = up_of(fixed_frame)
-        scene.set_up_direction((float(up[0]), float(up[1]), float(up[2])))
-        self._grid = scene.add_grid(
-            GRID,
-            width=8.0,
-            height=8.0,
-            plane="xy" if up[2] else "xz",
-            cell_size=0.25,
-            cell_color=(228, 231, 236),
-            section_size=1.0,
-            section_color=(200, 205, 214),
-            shadow_opacity=0.0,
-            fade_distance=9.0,
-        )
-        self._axes = scene.add_frame(AXES, axes_length=0.2, axes_radius=0.004, origin_radius=0.0)
-
-    def remove(self) -> None:
-        """Take grid and axes out of the scene."""
-        self._grid.remove()
-        self._axes.remove()
