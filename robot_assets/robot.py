@@ -8,6 +8,7 @@ from functools import cached_property
 from io import BytesIO
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import trimesh
@@ -55,9 +56,12 @@ class Robot:
         self.links = tuple(str(link) for link in urdf.link_map)
         self.joint_names = tuple(str(joint) for joint in urdf.actuated_joint_names)
         self.joint_limits = {
-            name: (float(joint.limit.lower), float(joint.limit.upper))
+            name: (float(limit.lower), float(limit.upper))
             for name in self.joint_names
-            if (joint := urdf.joint_map[name]).limit is not None and joint.type != "continuous"
+            if (limit := urdf.joint_map[name].limit) is not None
+            and urdf.joint_map[name].type != "continuous"
+            and limit.lower is not None
+            and limit.upper is not None
         }
 
     def match_joints(self, recorded: Iterable[str]) -> JointMatch:
@@ -116,12 +120,18 @@ class Robot:
 
     @cached_property
     def visual_meshes(self) -> dict[str, trimesh.Trimesh]:
-        """{link: one mesh in the link's frame, metres, coloured per vertex} of links that show."""
+        """{link: one mesh in the link's frame, metres, coloured per vertex} of links that show.
+
+        Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
+        """
         return self._meshes("visuals")
 
     @cached_property
     def collision_meshes(self) -> dict[str, trimesh.Trimesh]:
-        """{link: one mesh in the link's frame, metres} of links that have a body."""
+        """{link: one mesh in the link's frame, metres} of links that have a body.
+
+        Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
+        """
         return self._meshes("collisions")
 
     @cached_property
@@ -132,11 +142,14 @@ class Robot:
             for link in self._urdf.link_map.values()
             for part in [*link.visuals, *link.collisions]
             if (geometry := part.geometry).mesh is not None
-            and not Path(resolve_mesh(geometry.mesh.filename)).is_file()
+            and not Path(self._urdf._filename_handler(geometry.mesh.filename)).is_file()
         )
 
     @cached_property
     def _prefix(self) -> str:
+        # What is left must still say that it is a joint: "joint_" is no robot's name.
+        if not all("joint" in name.partition("_")[2] for name in self.joint_names):
+            return ""
         heads = {re.match(r"^[A-Za-z0-9]+_", name) for name in self.joint_names}
         texts = {head.group() if head else "" for head in heads}
         return texts.pop() if len(texts) == 1 else ""
@@ -172,8 +185,11 @@ def load_robot(source: str | Path | None = None) -> Robot:
         where, folder = str(path), path.parent
         try:
             text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise RobotError(f"{path} cannot be read as a URDF file: {error}.") from error
+        except OSError as error:
+            raise RobotError(f"{path} cannot be read: {error.strerror}.") from error
+        except UnicodeDecodeError as error:
+            raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
+    _check_is_urdf(where, text)
     try:
         urdf = yourdfpy.URDF.load(
             BytesIO(text.encode("utf-8")),
@@ -181,9 +197,23 @@ def load_robot(source: str | Path | None = None) -> Robot:
             load_meshes=False,
             build_scene_graph=True,
         )
-        return Robot(urdf, str(urdf.robot.name or "robot"), text)
-    except Exception as error:  # yourdfpy raises whatever its XML parser or its maths meets
+        robot = Robot(urdf, str(urdf.robot.name), text)
+        robot.link_poses({})  # joints that form a loop are found out only here
+    except Exception as error:  # yourdfpy raises whatever its parser or its maths meets
         raise RobotError(f"{where} is not a URDF that can be used: {error}.") from error
+    return robot
+
+
+def _check_is_urdf(where: str, text: str) -> None:
+    # yourdfpy repairs broken XML silently, and then fails on what it made of it.
+    try:
+        root = ElementTree.fromstring(text.strip().encode("utf-8"))
+    except ElementTree.ParseError as error:
+        raise RobotError(f"{where} is not a URDF: {error}.") from error
+    if root.tag != "robot" or not root.get("name"):
+        raise RobotError(f"{where} is not a URDF: it must be a <robot> with a name.")
+    if root.find("link") is None:
+        raise RobotError(f"{where} has no links.")
 
 
 def panda_urdf_path() -> Path:
@@ -234,11 +264,21 @@ def _part_mesh(part: Any, urdf: yourdfpy.URDF) -> trimesh.Trimesh | None:  # noq
         path = Path(urdf._filename_handler(geometry.mesh.filename))
         if not path.is_file():
             return None
-        mesh = _coloured(trimesh.load(path))
+        mesh = _read_mesh(path)
         if geometry.mesh.scale is not None:
             mesh.apply_scale(geometry.mesh.scale)
     if part.origin is not None:
         mesh.apply_transform(part.origin)
+    return mesh
+
+
+def _read_mesh(path: Path) -> trimesh.Trimesh:
+    try:
+        mesh = _coloured(trimesh.load(path))
+    except Exception as error:  # trimesh raises whatever the reader of that format meets
+        raise RobotError(f"The mesh {path} cannot be read: {error}.") from error
+    if len(mesh.faces) == 0:
+        raise RobotError(f"The mesh {path} has no triangles.")
     return mesh
 
 
