@@ -67,8 +67,10 @@ def load_rig(path: str | Path | None = None) -> Rig:
     where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
     try:
         content = tomllib.loads(where.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise RigError(f"{where} cannot be read as a rig file: {error}.") from error
+    except OSError as error:
+        raise RigError(f"{where} cannot be read: {error.strerror}.") from error
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
         return _rig(Table(content))
     except TableError as error:
@@ -95,8 +97,8 @@ def _rig(table: Table) -> Rig:
 def _sensor_model(table: Table) -> SensorModel:
     model = SensorModel(
         name=table.text("name"),
-        rows=table.integer("rows", low=1, high=64),
-        columns=table.integer("columns", low=1, high=64),
+        rows=table.integer("rows", low=2, high=64),
+        columns=table.integer("columns", low=2, high=64),
         field_of_view=math.radians(table.number("field_of_view_deg", low=1.0, high=170.0)),
         min_range=table.number("min_range_m", low=0.0, high=100.0),
         max_range=table.number("max_range_m", low=0.001, high=100.0),
