@@ -95,13 +95,14 @@ def _rig(table: Table) -> Rig:
 
 
 def _sensor_model(table: Table) -> SensorModel:
+    min_range = table.number("min_range_m", low=0.0, high=100.0)
     model = SensorModel(
         name=table.text("name"),
         rows=table.integer("rows", low=2, high=64),
         columns=table.integer("columns", low=2, high=64),
         field_of_view=math.radians(table.number("field_of_view_deg", low=1.0, high=170.0)),
-        min_range=table.number("min_range_m", low=0.0, high=100.0),
-        max_range=table.number("max_range_m", low=0.001, high=100.0),
+        min_range=min_range,
+        max_range=table.number("max_range_m", low=max(min_range, 0.001), high=100.0),
         distance=table.choice("distance", ("perpendicular", "radial")),  # type: ignore[arg-type]
         reading_order=table.choice("reading_order", ("row_major", "column_major")),  # type: ignore[arg-type]
         flip_vertical=table.boolean("flip_vertical"),
