@@ -1,0 +1,162 @@
+"""`tofscope simulate`: recordings of the paper's scenarios, made up by ray casting."""
+
+import argparse
+from collections.abc import Iterable
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from app.errors import InputError
+from recordings import RecordingError, open_recording
+from recordings.simulation import NOISE_MODELS, SCENARIOS, SPEEDS, TRIALS, write_simulation
+from robot_assets import load_rig, load_robot
+
+_ENDING = ".mcap"
+_ONE_SPEED, _ONE_TRIAL = 0.25, 1
+_MAX_SPEED = 1.0
+
+
+def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
+    """Add the subcommand."""
+    scenarios = "; ".join(f"{s.name}: {s.text}" for s in SCENARIOS.values())
+    noise = "; ".join(f"{n.name}: {n.text}" for n in NOISE_MODELS.values())
+    parser = commands.add_parser(
+        "simulate",
+        help="make simulated recordings",
+        description=(
+            "Simulate the paper's experiments: a Panda with 24 sensors in a lab, and a mannequin "
+            "carried by a second Panda, at 15 Hz, with the truth of every point. The same "
+            "scenario, speed, trial and seed give the same recording. A simulated recording that "
+            "exists under the name is replaced; any other file is left alone."
+        ),
+    )
+    parser.add_argument(
+        "scenarios",
+        nargs="+",
+        choices=[*SCENARIOS, "all"],
+        metavar="SCENARIO",
+        help=f"{scenarios}; all: all of them".replace("%", "%%"),
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        required=True,
+        metavar="FILE_OR_FOLDER",
+        help=(
+            "a FILE.mcap for a single recording; else a folder, made where it is missing, for "
+            "recordings named like towards_0.20_1.mcap (scenario, speed, trial)"
+        ),
+    )
+    parser.add_argument(
+        "--speed",
+        nargs="+",
+        type=float,
+        metavar="M/S",
+        help=(
+            f"speeds of the mannequin, up to {_MAX_SPEED:g} m/s (default: the paper's "
+            f"{', '.join(f'{s:.2f}' for s in SPEEDS)} into a folder, {_ONE_SPEED} into a file)"
+        ),
+    )
+    parser.add_argument(
+        "--trial",
+        nargs="+",
+        type=int,
+        metavar="NUMBER",
+        help=(
+            f"trials, which differ in noise and in where the mannequin starts by about a "
+            f"centimetre (default: {TRIALS[0]} to {TRIALS[-1]} into a folder, {_ONE_TRIAL} into "
+            "a file)"
+        ),
+    )
+    parser.add_argument(
+        "--seed", type=int, default=0, help="seed of all random numbers (default 0)"
+    )
+    parser.add_argument(
+        "--noise",
+        choices=list(NOISE_MODELS),
+        default="paper",
+        help=f"model of the sensors' errors (default paper); {noise}".replace("%", "%%"),
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    single = options.out.suffix == _ENDING and not options.out.is_dir()
+    names = (
+        list(SCENARIOS) if "all" in options.scenarios else list(dict.fromkeys(options.scenarios))
+    )
+    speeds = options.speed or ([_ONE_SPEED] if single else SPEEDS)
+    trials = options.trial or ([_ONE_TRIAL] if single else TRIALS)
+    _check(speeds, trials, options.seed)
+    wanted = list(product(names, dict.fromkeys(speeds), dict.fromkeys(trials)))
+    if single and len(wanted) > 1:
+        raise InputError(
+            f"{options.out} is a file, which holds one recording, and {len(wanted)} are asked "
+            f"for; give --out a folder, or one scenario, speed and trial."
+        )
+    paths = {
+        (name, speed, trial): options.out
+        if single
+        else options.out / f"{name}_{_shown(speed)}_{trial}{_ENDING}"
+        for name, speed, trial in wanted
+    }
+    for path in paths.values():
+        _check_replaceable(path)
+    if not single:
+        _make_folder(options.out)
+    robot, rig = load_robot(), load_rig()
+    for (name, speed, trial), path in paths.items():
+        count = write_simulation(
+            path,
+            SCENARIOS[name],
+            speed=speed,
+            trial=trial,
+            seed=options.seed,
+            noise=NOISE_MODELS[options.noise],
+            robot=robot,
+            rig=rig,
+        )
+        print(f"{path}: {count} frames, {path.stat().st_size / 1e6:.1f} MB", flush=True)
+    return 0
+
+
+def _shown(speed: float) -> str:
+    """A speed with two decimals, or with as many as it needs to be told apart."""
+    two = f"{speed:.2f}"
+    return two if float(two) == speed else f"{speed:g}"
+
+
+def _check(speeds: Iterable[float], trials: Iterable[int], seed: int) -> None:
+    for speed in speeds:
+        if not 0 < speed <= _MAX_SPEED:
+            raise InputError(
+                f"--speed must be above 0 and at most {_MAX_SPEED:g} m/s, got {speed:g}."
+            )
+    for trial in trials:
+        if trial < 1:
+            raise InputError(f"--trial must be 1 or more, got {trial}.")
+    if seed < 0:
+        raise InputError(f"--seed must be 0 or more, got {seed}.")
+
+
+def _check_replaceable(path: Path) -> None:
+    """Measured data cannot be made again: refuse to write over whatever is not simulated."""
+    if not path.exists():
+        return
+    try:
+        with open_recording(path) as recording:
+            if recording.simulated:
+                return
+    except RecordingError:
+        pass
+    raise InputError(
+        f"{path} exists and is not a simulated recording; remove it or give another --out."
+    )
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"The folder {folder} cannot be made: {error.strerror}.") from error

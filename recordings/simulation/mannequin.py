@@ -1,0 +1,102 @@
+"""The mannequin: head, torso and arms, each lofted over its cross-sections."""
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+# Cross-sections from the lower to the upper end: height, half width, half depth, and how far the
+# middle lies in front (-y), in metres. The origin is in the middle of the chest; it faces -y.
+_TORSO = (
+    (-0.420, 0.030, 0.020, 0.000),
+    (-0.415, 0.120, 0.075, 0.000),
+    (-0.390, 0.160, 0.105, 0.000),
+    (-0.300, 0.172, 0.115, 0.000),
+    (-0.160, 0.140, 0.095, 0.005),
+    (-0.060, 0.150, 0.105, 0.012),
+    (0.050, 0.172, 0.118, 0.018),
+    (0.150, 0.190, 0.105, 0.008),
+    (0.205, 0.178, 0.082, 0.000),
+    (0.240, 0.110, 0.065, -0.005),
+    (0.262, 0.062, 0.056, -0.005),
+    (0.330, 0.054, 0.054, 0.005),
+    (0.350, 0.020, 0.020, 0.005),
+)
+_HEAD = (
+    (0.310, 0.008, 0.010, 0.040),
+    (0.316, 0.032, 0.040, 0.036),
+    (0.345, 0.056, 0.074, 0.022),
+    (0.400, 0.071, 0.090, 0.010),
+    (0.450, 0.077, 0.098, 0.002),
+    (0.500, 0.073, 0.092, -0.002),
+    (0.530, 0.055, 0.070, -0.004),
+    (0.548, 0.025, 0.032, -0.004),
+    (0.552, 0.006, 0.008, -0.004),
+)
+# Along the hanging arm, from the finger tips to the shoulder, whose middle is at height 0.
+_ARM = (
+    (-0.640, 0.006, 0.010, 0.010),
+    (-0.630, 0.014, 0.030, 0.010),
+    (-0.560, 0.020, 0.042, 0.010),
+    (-0.480, 0.026, 0.030, 0.008),
+    (-0.400, 0.034, 0.036, 0.004),
+    (-0.290, 0.038, 0.040, 0.000),
+    (-0.150, 0.048, 0.050, 0.000),
+    (-0.030, 0.056, 0.060, 0.000),
+    (0.025, 0.046, 0.050, 0.000),
+    (0.048, 0.012, 0.014, 0.000),
+)
+_SHOULDER = (0.212, 0.0, 0.165)
+_SPREAD = 0.16  # rad, of the arms away from the body
+GRIP = (0.0, 0.125, 0.13)
+"""The middle of the outer side of the plate between the shoulders, metres in its frame."""
+_PLATE = (0.10, 0.06, 0.10)
+
+_RINGS, _SEGMENTS = 48, 40
+
+
+def mannequin() -> trimesh.Trimesh:
+    """The upper half of a mannequin, about 0.97 m high, as closed pieces that overlap.
+
+    Its frame has the origin in the middle of the chest, z up, and it faces -y.
+    """
+    left = _loft(_ARM)
+    left.apply_transform(trimesh.transformations.rotation_matrix(-_SPREAD, (0.0, 1.0, 0.0)))
+    left.apply_translation(_SHOULDER)
+    right = left.copy()
+    right.apply_transform(trimesh.transformations.reflection_matrix((0, 0, 0), (1, 0, 0)))
+    plate = trimesh.creation.box(_PLATE)
+    plate.apply_translation((GRIP[0], GRIP[1] - _PLATE[1] / 2, GRIP[2]))
+    return trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD), left, right, plate])  # type: ignore[return-value]
+
+
+def _loft(sections: tuple[tuple[float, float, float, float], ...]) -> trimesh.Trimesh:
+    """A closed surface whose cross-sections are ellipses, smooth between those given."""
+    table = np.array(sections)
+    # Close together at the ends, which are round.
+    along = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, _RINGS))
+    heights = table[0, 0] + along * (table[-1, 0] - table[0, 0])
+    width, depth, front = PchipInterpolator(table[:, 0], table[:, 1:])(heights).T
+    angle = 2 * np.pi * np.arange(_SEGMENTS) / _SEGMENTS
+    rings = np.empty((_RINGS, _SEGMENTS, 3))
+    rings[..., 0] = width[:, None] * np.cos(angle)
+    rings[..., 1] = depth[:, None] * np.sin(angle) - front[:, None]
+    rings[..., 2] = heights[:, None]
+    ends = np.stack([rings[0].mean(axis=0), rings[-1].mean(axis=0)])
+    return trimesh.Trimesh(np.concatenate([rings.reshape(-1, 3), ends]), _faces())
+
+
+def _faces() -> NDArray[np.int64]:
+    """Triangles between neighbouring rings, and fans that close the two ends."""
+    ring = np.arange(_SEGMENTS)
+    after = np.roll(ring, -1)
+    faces: list[NDArray[np.int64]] = []
+    for lower in range(0, (_RINGS - 1) * _SEGMENTS, _SEGMENTS):
+        upper = lower + _SEGMENTS
+        faces.append(np.stack([lower + ring, lower + after, upper + ring], axis=1))
+        faces.append(np.stack([lower + after, upper + after, upper + ring], axis=1))
+    bottom, top = _RINGS * _SEGMENTS, _RINGS * _SEGMENTS + 1
+    last = (_RINGS - 1) * _SEGMENTS
+    faces.append(np.stack([after, ring, np.full_like(ring, bottom)], axis=1))
+    faces.append(np.stack([last + ring, last + after, np.full_like(ring, top)], axis=1))
+    return np.concatenate(faces)

@@ -1,0 +1,76 @@
+"""The paper's three scenarios: what moves, where to, how far (section III-B)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from recordings.simulation.glide import Glide
+
+SPEEDS = (0.15, 0.20, 0.25, 0.30)
+"""m/s, the paper's target speeds of the mannequin."""
+TRIALS = (1, 2, 3, 4, 5)
+"""The paper repeats every experiment five times."""
+
+_Path = tuple[tuple[float, float, float], ...]
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """An experiment of the paper.
+
+    Attributes:
+        name: as on the command line and in file names.
+        text: what happens, in one clause.
+        start: (x, y) metres from the nominal place of the mannequin to where it starts.
+        mannequin: the straight pieces of the mannequin's path, metres in the fixed frame.
+        robot: the straight pieces of the sensorised end-effector's path, empty where it rests.
+        robot_speed: m/s of the sensorised end-effector.
+    """
+
+    name: str
+    text: str
+    start: tuple[float, float]
+    mannequin: _Path
+    robot: _Path = ()
+    robot_speed: float = 0.25
+
+    def mannequin_glide(self, speed: float) -> Glide:
+        """The mannequin's motion at `speed` m/s."""
+        return Glide(np.array(self.mannequin), speed)
+
+    def robot_glide(self) -> Glide | None:
+        """The motion of the sensorised end-effector, None where it rests."""
+        return Glide(np.array(self.robot), self.robot_speed) if self.robot else None
+
+
+_TOWARDS: _Path = ((0.0, -0.30, 0.0),)
+# The second piece goes on 0.10 m in the direction of the first.
+_FIRST = np.array([0.05, -0.15, 0.0])
+_SECOND = 0.10 * _FIRST / np.linalg.norm(_FIRST)
+_RETREAT: _Path = (tuple(_FIRST.tolist()), tuple(_SECOND.tolist()))
+
+SCENARIOS = {
+    scenario.name: scenario
+    for scenario in (
+        Scenario(
+            "towards",
+            "the mannequin comes 0.30 m towards the robot, along -y",
+            start=(0.0, 0.0),
+            mannequin=_TOWARDS,
+        ),
+        Scenario(
+            "sideways",
+            "the mannequin passes 0.25 m sideways, along x",
+            start=(-0.125, 0.0),
+            mannequin=((0.25, 0.0, 0.0),),
+        ),
+        Scenario(
+            "robot_moving",
+            "the mannequin comes as in towards while the sensorised arm draws back",
+            start=(0.0, 0.0),
+            mannequin=_TOWARDS,
+            robot=_RETREAT,
+        ),
+    )
+}
+"""{name: scenario}."""

@@ -1,0 +1,121 @@
+"""What the sensors read: rays cast into the scene, several for each zone."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from recordings.simulation.noise import NoiseModel
+from robot_assets import RayCaster, Rig, SensorModel, zone_rays
+
+_SUB_RAYS = 4  # along each side of a zone
+_FAR = 1e3  # metres, in place of inf for rays that meet nothing
+
+
+@dataclass(frozen=True)
+class Hits:
+    """What a bundle of rays meets.
+
+    Attributes:
+        distance: metres along each ray, inf where it meets nothing.
+        piece: index of the piece that it meets, -1 likewise.
+    """
+
+    distance: NDArray[np.float64]
+    piece: NDArray[np.int64]
+
+    def before(self, other: "Hits") -> "Hits":
+        """Per ray the nearer of two hits."""
+        nearer = self.distance <= other.distance
+        return Hits(
+            np.where(nearer, self.distance, other.distance),
+            np.where(nearer, self.piece, other.piece),
+        )
+
+
+class PieceCaster:
+    """Casts rays against several pieces at once and tells which one they meet.
+
+    Args:
+        pieces: {index: mesh in the fixed frame}.
+    """
+
+    def __init__(self, pieces: dict[int, trimesh.Trimesh]) -> None:
+        self._caster = RayCaster(trimesh.util.concatenate(list(pieces.values())))  # type: ignore[arg-type]
+        # The last one is for rays that meet no triangle, whose index is -1.
+        self._piece = np.concatenate(
+            [*(np.full(len(mesh.faces), index) for index, mesh in pieces.items()), [-1]]
+        )
+
+    def cast(self, origins: NDArray[np.float64], directions: NDArray[np.float64]) -> Hits:
+        """Find the first front face along each ray: origins (N, 3) metres, unit directions."""
+        distance, triangle = self._caster.cast(origins, directions)
+        return Hits(distance, self._piece[triangle])
+
+
+class ZoneRays:
+    """The rays of all zones of a rig: an even grid over each zone's footprint.
+
+    Args:
+        rig: whose sensors look.
+    """
+
+    def __init__(self, rig: Rig) -> None:
+        self._model = rig.model
+        rays = _sub_rays(rig.model)
+        self._lengths = np.linalg.norm(rays, axis=-1)
+        self._directions = rays / self._lengths[..., None]
+
+    def in_fixed(
+        self, T_fixed_sensor: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Origins and unit directions (N, 3) of all rays for sensor poses (S, 4, 4)."""
+        R, t = T_fixed_sensor[:, :3, :3], T_fixed_sensor[:, :3, 3]
+        directions = np.einsum("sij,rcnj->srcni", R, self._directions)
+        origins = np.broadcast_to(t[:, None, None, None, :], directions.shape)
+        return origins.reshape(-1, 3), directions.reshape(-1, 3)
+
+    def readings(self, hits: Hits) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """What each zone reads without noise, and the piece it sees.
+
+        A zone reads the piece that fills most of its footprint, the nearest of them where two fill
+        as much, at the mean over the rays that meet it: the sensor reports the strongest return.
+
+        Returns:
+            (S, rows, columns) metres, inf where nothing is met, and the piece, -1 likewise.
+        """
+        shape = (-1, *self._lengths.shape)
+        distance, piece = hits.distance.reshape(shape), hits.piece.reshape(shape)
+        same = piece[..., :, None] == piece[..., None, :]
+        near = np.minimum(distance, _FAR) / (2 * _FAR)
+        strongest = np.argmax(same.sum(axis=-1) - near, axis=-1)[..., None]
+        piece_seen = np.take_along_axis(piece, strongest, axis=-1)
+        if self._model.distance == "perpendicular":
+            distance = distance / self._lengths
+        mine = piece == piece_seen
+        total = np.where(mine, distance, 0.0).sum(axis=-1)
+        return total / mine.sum(axis=-1), piece_seen[..., 0]
+
+
+def sensed(
+    readings: NDArray[np.float64],
+    model: SensorModel,
+    noise: NoiseModel,
+    rng: np.random.Generator,
+) -> NDArray[np.float64]:
+    """Add noise; NaN where nothing is met or the reading is outside the sensor's range."""
+    met = np.isfinite(readings)
+    noisy = noise.sample(np.where(met, readings, 0.0), rng)
+    valid = met & (noisy >= model.min_range) & (noisy <= model.max_range)
+    return np.where(valid, noisy, np.nan)
+
+
+def _sub_rays(model: SensorModel) -> NDArray[np.float64]:
+    """(rows, columns, n * n, 3) in the optical frame, each with z = 1."""
+    n = _SUB_RAYS
+    focal = n * model.focal_length
+    rows, columns = n * model.rows, n * model.columns
+    fine = zone_rays(rows, columns, focal, focal, 0.5 * (columns - 1), 0.5 * (rows - 1))
+    blocks = fine.reshape(model.rows, n, model.columns, n, 3).swapaxes(1, 2)
+    return blocks.reshape(model.rows, model.columns, n * n, 3)
