@@ -56,10 +56,18 @@ def test_delta_is_where_motion_begins(length, label):
 
 def test_a_mean_displacement_of_just_delta_moves():
     # The pseudocode: stationary below δ, moving otherwise.
-    scene = moved_patches(np.random.default_rng(0), np.zeros((2, 3)))
-    flow = estimate_scene_flow(scene.source, scene.target, INTERVAL, Parameters(delta=0.0))
-    assert flow.moving.all()
-    assert flow.velocity == pytest.approx(np.zeros((200, 3)), abs=1e-9)
+    scene = moved_patches(np.random.default_rng(0), np.array([(0.06, 0, 0), (0, 0, 0)]))
+    flow = estimate_scene_flow(scene.source, scene.target, INTERVAL, Parameters())
+    (moved,) = [cluster for cluster in flow.clusters if cluster.label == Label.MOVING]
+    for delta, moves in (
+        (moved.mean_displacement, True),
+        (np.nextafter(moved.mean_displacement, 1.0), False),
+    ):
+        again = estimate_scene_flow(
+            scene.source, scene.target, INTERVAL, Parameters(delta=float(delta))
+        )
+        assert (again.moving == (scene.patch == 0)).all() == moves
+        assert again.moving.any() == moves
 
 
 def whole(source: np.ndarray, target: np.ndarray) -> tuple[Cluster, CloudPair]:
