@@ -86,8 +86,8 @@ def test_a_folder_is_all_its_recordings_and_a_bad_one_does_not_stop_the_rest(
         (["nowhere.mcap"], "There is no file or folder nowhere.mcap"),
         ([".", "--n", "0"], "n must be between 1 and 1000 frames, got 0"),
         ([".", "--gamma", "1.5"], "gamma must be between 0 and 1, got 1.5"),
-        ([".", "--rig", "nothing.toml"], "nothing.toml cannot be read as a rig file"),
-        ([".", "--urdf", "nothing.urdf"], "nothing.urdf cannot be read as a URDF"),
+        ([".", "--rig", "nothing.toml"], "nothing.toml cannot be read"),
+        ([".", "--urdf", "nothing.urdf"], "nothing.urdf cannot be read"),
         ([".", "--json", "nowhere/table.json"], "nowhere/table.json cannot be written"),
     ],
 )

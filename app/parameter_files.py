@@ -1,0 +1,58 @@
+"""Parameters in a file: saved by the app, taken by the command line."""
+
+import json
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+from app.errors import InputError
+from estimator import ParameterError, Parameters
+
+
+def to_text(parameters: Parameters) -> str:
+    """Parameters as JSON, a line each."""
+    return json.dumps(asdict(parameters), indent=2) + "\n"
+
+
+def from_text(text: str, where: str) -> Parameters:
+    """Parameters from JSON as `to_text` makes it, or from a table of `tofscope evaluate`.
+
+    Parameters that are not named keep their defaults.
+
+    Args:
+        text: JSON.
+        where: a file's name, for the sentence.
+
+    Raises:
+        InputError: it is not JSON, names a parameter that there is not, or has a wrong value.
+    """
+    try:
+        content: Any = json.loads(text)
+    except ValueError as error:
+        raise InputError(f"{where} is not JSON: {error}.") from error
+    if isinstance(content, dict) and isinstance(content.get("parameters"), dict):
+        content = content["parameters"]
+    if not isinstance(content, dict):
+        raise InputError(f'{where} must hold parameters, such as {{"n": 8, "gamma": 0.7}}.')
+    known = [field.name for field in fields(Parameters)]
+    if unknown := sorted(set(content) - set(known)):
+        raise InputError(
+            f"{where} names {unknown[0]}, which is no parameter; parameters are {', '.join(known)}."
+        )
+    try:
+        return Parameters(**content)
+    except ParameterError as error:
+        raise InputError(f"{where}: {error}") from error
+
+
+def load(path: Path) -> Parameters:
+    """Parameters from a file.
+
+    Raises:
+        InputError: the file cannot be read, or `from_text` says what is wrong with it.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path} cannot be read as parameters: {error}.") from error
+    return from_text(text, str(path))
