@@ -68,7 +68,7 @@ def load_rig(path: str | Path | None = None) -> Rig:
     try:
         content = tomllib.loads(where.read_text(encoding="utf-8"))
     except OSError as error:
-        raise RigError(f"{where} cannot be read: {error.strerror}.") from error
+        raise RigError(f"{where} cannot be read as a rig file: {error.strerror}.") from error
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:

@@ -186,7 +186,7 @@ def load_robot(source: str | Path | None = None) -> Robot:
         try:
             text = path.read_text(encoding="utf-8")
         except OSError as error:
-            raise RobotError(f"{path} cannot be read: {error.strerror}.") from error
+            raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
         except UnicodeDecodeError as error:
             raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
     _check_is_urdf(where, text)

@@ -231,5 +231,7 @@ def test_what_is_no_toml(tmp_path, content, sentence):
 
 
 def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(RigError, match=r"gone.toml cannot be read: No such file or directory\.$"):
+    with pytest.raises(
+        RigError, match=r"gone.toml cannot be read as a rig file: No such file or directory\.$"
+    ):
         load_rig(tmp_path / "gone.toml")

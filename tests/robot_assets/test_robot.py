@@ -311,7 +311,9 @@ def test_a_broken_description_is_one_sentence_that_names_it(tmp_path, capfd, con
 
 def test_a_file_that_is_not_there(tmp_path):
     path = tmp_path / "gone.urdf"
-    with pytest.raises(RobotError, match=r"gone.urdf cannot be read: No such file or directory\.$"):
+    with pytest.raises(
+        RobotError, match=r"gone.urdf cannot be read as a URDF file: No such file or directory\.$"
+    ):
         load_robot(path)
 
 
