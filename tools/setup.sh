@@ -33,7 +33,8 @@ make_environment() {
 
 install_packages() {
     echo "Installing Python packages; the first time takes some minutes."
-    local pip=(.venv/bin/python -m pip --quiet --disable-pip-version-check install)
+    # Twice quiet: errors are shown, warnings about the index are not.
+    local pip=(.venv/bin/python -m pip -qq --disable-pip-version-check install)
     # The build backend comes first and from the constraints too, so that every version is pinned.
     "${pip[@]}" --constraint constraints.txt setuptools
     "${pip[@]}" --constraint constraints.txt --no-build-isolation --editable '.[dev]'
