@@ -35,14 +35,11 @@ class PlaybackClock:
         due = bisect.bisect_right(self._stamps, now + self._lead + 1e-6) - 1
         return max(due, 0)
 
-    def wait(self, now: float) -> float | None:
-        """Seconds from `now` until the next frame is due, None where none will be."""
-        if self._lead is None:
+    def wait(self, shown: int, now: float) -> float | None:
+        """Seconds from `now` until a frame after `shown` is due, None where none will be."""
+        if self._lead is None or shown + 1 >= len(self._stamps):
             return None
-        following = self.frame(now) + 1
-        if following == len(self._stamps):
-            return None
-        return max(self._stamps[following] - self._lead - now, 0.0)
+        return max(self._stamps[shown + 1] - self._lead - now, 0.0)
 
     def at_end(self, now: float) -> bool:
         """Whether the last frame is due at `now`; only while playing."""

@@ -76,7 +76,8 @@ class Session:
                 self._shared.estimates,
                 entries,
                 left.parameters if left else self._shared.parameters,
-                self._mailbox.post,
+                self._shared.parameters,
+                self._mailbox,
             )
             known = left is not None and left.label in [entry.label for entry in entries]
             self._mailbox.post(OpenRecording(left.label if left and known else entries[0].label))

@@ -27,6 +27,11 @@ class Seek(_LatestWins):
 
 
 @dataclass(frozen=True)
+class ResetParameters(_LatestWins):
+    """Estimate with the parameters that the app was started with from now on."""
+
+
+@dataclass(frozen=True)
 class TakeScreenshot(_LatestWins):
     """Save what the page shows as a PNG file."""
 

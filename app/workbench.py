@@ -1,7 +1,7 @@
 """What a session holds, and what becomes of it at each wish; used by one thread alone."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +10,7 @@ import viser
 from app.estimates import Estimates
 from app.evaluation import counting_pairs
 from app.library import Entry, Library, Opened
-from app.mailbox import Wish
+from app.mailbox import Mailbox, Wish
 from app.page import Page
 from app.playback_clock import PlaybackClock
 from app.reloads import Left
@@ -19,6 +19,7 @@ from app.wishes import (
     ChangeParameters,
     ChangeView,
     OpenRecording,
+    ResetParameters,
     Seek,
     Step,
     TakeScreenshot,
@@ -37,7 +38,8 @@ class Workbench:
         estimates: computes and remembers.
         entries: the recordings that may be opened, at least one.
         parameters: to begin with.
-        post: takes the wishes of the page's controls, from any thread.
+        defaults: to go back to.
+        mailbox: takes the wishes of the page's controls, from any thread.
     """
 
     def __init__(
@@ -47,24 +49,27 @@ class Workbench:
         estimates: Estimates,
         entries: Sequence[Entry],
         parameters: Parameters,
-        post: Callable[[Wish], None],
+        defaults: Parameters,
+        mailbox: Mailbox,
     ) -> None:
         self._client = client
         self._library = library
+        self._mailbox = mailbox
         self._estimates = estimates
         self._entries = {entry.label: entry for entry in entries}
         self._parameters = parameters
+        self._defaults = defaults
         self._settings = ViewSettings()
         self._opened: Opened | None = None
         self._clock = PlaybackClock([0.0])
         self._frame = 0
         self._drawn: tuple[Opened, int, Parameters] | None = None
         self._scene = Scene(client, self._settings)
-        self._page = Page(client, entries, parameters, self._settings, post)
+        self._page = Page(client, entries, parameters, self._settings, mailbox.post)
 
     def wait(self) -> float | None:
         """Seconds until a frame is due, None where none will be."""
-        return self._clock.wait(time.monotonic())
+        return self._clock.wait(self._frame, time.monotonic())
 
     def fulfil(self, wish: Wish) -> None:
         """Do what is wished, without drawing the pair yet."""
@@ -73,6 +78,9 @@ class Workbench:
                 self._open(label)
             case ChangeParameters(values):
                 self._change_parameters(dict(values))
+            case ResetParameters():
+                self._parameters = self._defaults
+                self._page.parameters.show(self._parameters)
             case ChangeView(values):
                 self._settings = replace(self._settings, **dict(values))
                 self._scene.change(self._settings)
@@ -91,12 +99,20 @@ class Workbench:
             return
         self._follow_clock()
         wanted = (self._opened, self._frame, self._parameters)
-        if wanted != self._drawn:
-            self._draw_pair(self._opened)
-            self._drawn = wanted
-        stamps = self._opened.recording.stamps
-        seconds = float(stamps[self._frame] - stamps[0])
-        self._page.playback.show(self._frame, len(stamps), seconds, playing=self._clock.playing)
+        try:
+            if wanted != self._drawn:
+                self._draw_pair(*wanted)
+        finally:
+            # Where a frame cannot be drawn, its number is shown all the more.
+            stamps = self._opened.recording.stamps
+            seconds = float(stamps[self._frame] - stamps[0])
+            self._page.playback.show(
+                self._frame,
+                len(stamps),
+                seconds,
+                playing=self._clock.playing,
+                seeking=self._mailbox.waits(Seek),
+            )
 
     def close(self) -> Left | None:
         """Give back the recording; what was shown is returned, for when the client comes again."""
@@ -107,18 +123,19 @@ class Workbench:
         self._opened = None
         return left
 
-    def _draw_pair(self, opened: Opened) -> None:
+    def _draw_pair(self, opened: Opened, frame: int, parameters: Parameters) -> None:
         problem: Exception | None = None
         try:
-            pair = self._estimates.estimated(opened, self._frame, self._parameters)
+            pair = self._estimates.estimated(opened, frame, parameters)
         except Exception as error:
             # The clouds are shown even where the estimator fails on them.
-            problem, pair = error, self._estimates.pair(opened, self._frame, self._parameters)
+            problem, pair = error, self._estimates.pair(opened, frame, parameters)
         with self._client.atomic():
             self._scene.show(pair)
             if self._drawn is None or self._drawn[0] is not opened:
                 self._scene.place_camera(pair)
-        self._page.status.show(pair, self._parameters, simulated=opened.recording.simulated)
+        self._page.status.show(pair, parameters, simulated=opened.recording.simulated)
+        self._drawn = (opened, frame, parameters)
         if problem is not None:
             raise problem
 
@@ -146,9 +163,9 @@ class Workbench:
         try:
             self._parameters = replace(self._parameters, **values)
         except ParameterError as error:
-            self._page.parameters.refuse(f"{error} It stays as it was.")
+            self._page.parameters.refuse(values, str(error))
         else:
-            self._page.parameters.show(self._parameters)
+            self._page.parameters.accept(self._parameters)
 
     def _seek(self, frame: int) -> None:
         if self._opened is None:

@@ -1,13 +1,13 @@
 """The estimator's parameters: sliders for the paper's four, the others folded away."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import fields
 from html import escape
 from typing import Any
 
 import viser
 
-from app.wishes import ChangeParameters
+from app.wishes import ChangeParameters, ResetParameters
 from estimator import PARAMETER_INFO, Parameters, method_names
 
 _UNSET = 0
@@ -30,9 +30,10 @@ class ParametersPanel:
         self,
         gui: viser.GuiApi,
         parameters: Parameters,
-        post: Callable[[ChangeParameters], None],
+        post: Callable[[ChangeParameters | ResetParameters], None],
     ) -> None:
         self._controls: dict[str, Any] = {}
+        self._refused: set[str] = set()
         with gui.add_folder("Parameters"):
             for name in _DEFAULTS:
                 if PARAMETER_INFO[name].slider:
@@ -44,35 +45,46 @@ class ParametersPanel:
                         self._controls[name] = _add_field(gui, name, getattr(parameters, name))
             reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE, color="gray")
 
-        for name, control in self._controls.items():
-            control.on_update(lambda event, name=name: self._post(event, name, post))
+        for name in self._controls:
+            self._connect(name, post)
 
         @reset.on_click
-        def _(_: viser.GuiEvent) -> None:
-            post(ChangeParameters(_DEFAULTS))
+        async def _(_: viser.GuiEvent) -> None:
+            post(ResetParameters())
 
     def show(self, parameters: Parameters) -> None:
         """Show these parameters, and that nothing is refused."""
-        for name, control in self._controls.items():
+        self._refused = set(self._controls)
+        self.accept(parameters)
+
+    def accept(self, parameters: Parameters) -> None:
+        """Show that a change was taken.
+
+        Only controls whose value was refused are set: a person may be moving the others.
+        """
+        for name in self._refused:
             value = getattr(parameters, name)
-            control.value = _UNSET if value is None else value
+            self._controls[name].value = _UNSET if value is None else value
+        self._refused.clear()
         self._refusal.visible = False
 
-    def refuse(self, reason: str) -> None:
-        """Say why a value is not taken; the controls stay, so that a person can go on typing."""
+    def refuse(self, names: Iterable[str], reason: str) -> None:
+        """Say why values are not taken; the controls stay, so that a person can go on typing."""
+        self._refused.update(names)
         self._refusal.content = (
             '<div style="font-size: 0.8rem; padding: 0 1em; color: #c92a2a" role="alert">'
             f"{escape(reason)}</div>"
         )
         self._refusal.visible = True
 
-    def _post(
-        self, event: viser.GuiEvent, name: str, post: Callable[[ChangeParameters], None]
-    ) -> None:
-        if event.client_id is not None:
-            value = self._controls[name].value
-            unset = name in _OPTIONAL and value == _UNSET
-            post(ChangeParameters({name: None if unset else value}))
+    def _connect(self, name: str, post: Callable[[ChangeParameters], None]) -> None:
+        # Coroutines run at once, before anything can change a control's value again.
+        @self._controls[name].on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client_id is not None:
+                value = self._controls[name].value
+                unset = name in _OPTIONAL and value == _UNSET
+                post(ChangeParameters({name: None if unset else value}))
 
 
 def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN401 (viser's handles)

@@ -29,17 +29,18 @@ class PlaybackPanel:
                 "Step", tuple(_STEPS), hint="Frames; keys J and L go one back and one on."
             )
 
+        # Coroutines run at once, before anything can change a control's value again.
         @self._slider.on_update
-        def _(event: viser.GuiEvent) -> None:
+        async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
                 post(Seek(self._slider.value))
 
         @self._play.on_click
-        def _(_: viser.GuiEvent) -> None:
+        async def _(_: viser.GuiEvent) -> None:
             post(TogglePlay())
 
         @steps.on_click
-        def _(_: viser.GuiEvent) -> None:
+        async def _(_: viser.GuiEvent) -> None:
             post(Step(_STEPS[steps.value]))
 
         _add_keys(gui, post)
@@ -48,9 +49,20 @@ class PlaybackPanel:
         """Prepare for a recording of this many frames."""
         self._slider.max = max(frames - 1, 0)
 
-    def show(self, frame: int, frames: int, seconds: float, *, playing: bool) -> None:
-        """Show where playback is; `seconds` since the recording's first frame."""
-        self._slider.value = frame
+    def show(
+        self, frame: int, frames: int, seconds: float, *, playing: bool, seeking: bool
+    ) -> None:
+        """Show where playback is.
+
+        Args:
+            frame: that is shown.
+            frames: of the recording.
+            seconds: since its first frame.
+            playing: whether time goes on.
+            seeking: whether a person is moving the slider on, which is then left to them.
+        """
+        if not seeking:
+            self._slider.value = frame
         self._time.content = (
             '<div style="font-size: 0.75rem; padding: 0 1em; opacity: 0.75">'
             f"Frame {frame} of {frames - 1}, at {seconds:.2f} s</div>"

@@ -28,7 +28,7 @@ class RecordingsPanel:
         self._about = gui.add_html("")
 
         @self._list.on_update
-        def _(event: viser.GuiEvent) -> None:
+        async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
                 post(OpenRecording(self._list.value))
 

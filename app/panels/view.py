@@ -41,15 +41,16 @@ class ViewPanel:
             )
             layers = {layer: gui.add_checkbox(layer, layer in settings.layers) for layer in LAYERS}
 
+        # Coroutines run at once, before anything can change a control's value again.
         @arrow_scale.on_update
-        def _(_: viser.GuiEvent) -> None:
+        async def _(_: viser.GuiEvent) -> None:
             post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.05), 2.0)}))
 
         @point_size.on_update
-        def _(_: viser.GuiEvent) -> None:
+        async def _(_: viser.GuiEvent) -> None:
             post(ChangeView({"point_size": 1e-3 * min(max(point_size.value, 0.5), 15.0)}))
 
-        def post_layers(_: viser.GuiEvent) -> None:
+        async def post_layers(_: viser.GuiEvent) -> None:
             shown = frozenset(layer for layer, box in layers.items() if box.value)
             post(ChangeView({"layers": shown}))
 

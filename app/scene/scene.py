@@ -59,10 +59,8 @@ class Scene:
         self._shown: Pair | None = None
         self._turn = np.eye(3)
         self._stage = Stage(client.scene)
-        self._roots = {
-            name: client.scene.add_frame(name, show_axes=False)
-            for name in (ROOT, SENSORS, FRUSTUMS)
-        }
+        for root in (ROOT, SENSORS, FRUSTUMS):
+            client.scene.add_frame(root, show_axes=False)
         self._clouds = CloudsView(client.scene, settings.point_size)
 
     def open(self, recording: Recording) -> None:
@@ -123,8 +121,7 @@ class Scene:
     def _show_layers(self) -> None:
         for layer, names in LAYERS.items():
             for name in names:
-                node = self._client.scene.get_handle_by_name(name)
-                if node is not None:
+                if node := self._client.scene.get_handle_by_name(name):
                     node.visible = layer in self._settings.layers
 
 

@@ -1,0 +1,122 @@
+"""A browser client without a browser: viser's own scene and GUI, and whatever was sent kept."""
+
+import asyncio
+import contextlib
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import viser
+from viser._messages import GuiUpdateMessage
+
+
+class FakeStorage:
+    def __init__(self):
+        self.items = {}
+
+    def get_item(self, key, timeout=None):
+        return self.items.get(key)
+
+    def set_item(self, key, value):
+        self.items[key] = value
+
+
+class FakeClient:
+    """Stands in for a `viser.ClientHandle`, on the scene and GUI of a server of its own."""
+
+    client_id = 1
+
+    def __init__(self, server: viser.ViserServer, storage: FakeStorage | None = None):
+        self.server, self.scene, self.gui = server, server.scene, server.gui
+        self.camera = SimpleNamespace(
+            position=np.zeros(3), look_at=np.zeros(3), fov=0.9, image_height=60, image_width=80
+        )
+        self.local_storage = storage or FakeStorage()
+        self.notifications: list[str] = []
+        self.downloads: list[tuple[str, bytes]] = []
+        self.render: Any = np.zeros((60, 80, 4), dtype=np.uint8)
+        self.sent: list[Any] = []
+        server._connected_clients[self.client_id] = cast(Any, self)
+        queue = server._websock_server.queue_message
+
+        def keep(message):
+            self.sent.append(message)
+            queue(message)
+
+        server._websock_server.queue_message = keep
+
+    @classmethod
+    @contextmanager
+    def on_a_server(cls, storage: FakeStorage | None = None) -> Iterator[Any]:
+        with contextlib.redirect_stdout(io.StringIO()):
+            server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        yield cls(server, storage)
+        with contextlib.redirect_stdout(io.StringIO()):
+            server.stop()
+
+    @contextmanager
+    def atomic(self):
+        yield
+
+    def add_notification(self, title, body, **_):
+        self.notifications.append(body)
+
+    def send_file_download(self, name, content, save_immediately=False):
+        self.downloads.append((name, content))
+
+    def get_render(self, height, width, **_):
+        if isinstance(self.render, Exception):
+            raise self.render
+        return self.render
+
+    def take_sent(self) -> list[Any]:
+        taken, self.sent[:] = list(self.sent), []
+        return taken
+
+    def node(self, name: str):
+        node = self.scene.get_handle_by_name(name)
+        assert node is not None, f"the scene has no {name}"
+        return cast(Any, node)
+
+    def control(self, label: str):
+        found = [
+            handle
+            for handle in self.gui._gui_input_handle_from_uuid.values()
+            if getattr(handle, "label", None) == label
+        ]
+        assert len(found) == 1, f"{len(found)} controls are labelled {label}"
+        return cast(Any, found[0])
+
+    def change(self, label: str, value: Any) -> None:
+        """What a browser sends when a person changes a control, on viser's own way."""
+        message = GuiUpdateMessage(self.control(label)._impl.uuid, {"value": value})
+        asyncio.run_coroutine_threadsafe(
+            self.gui._handle_gui_updates(cast(Any, self.client_id), message),
+            self.server.get_event_loop(),
+        ).result(timeout=10)
+
+    def press(self, label: str) -> None:
+        """What a browser sends when a person presses a button."""
+        self.change(label, True)
+
+    def text(self) -> str:
+        """All HTML of the page."""
+        return "\n".join(c.content for c in self._elements() if isinstance(c, viser.GuiHtmlHandle))
+
+    def markdown(self) -> str:
+        elements = self._elements()
+        return "\n".join(c.content for c in elements if isinstance(c, viser.GuiMarkdownHandle))
+
+    def buttons(self) -> list[viser.GuiButtonHandle]:
+        return [c for c in self._elements() if isinstance(c, viser.GuiButtonHandle)]
+
+    def _elements(self) -> list[Any]:
+        containers = list(self.gui._container_handle_from_uuid.values())
+        return [
+            child
+            for container in containers
+            for child in list(getattr(container, "_children", {}).values())
+        ]

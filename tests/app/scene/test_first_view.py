@@ -1,0 +1,66 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.scene.first_view import first_view
+from app.scene.stage import upright
+
+FOV = np.radians(50)
+
+
+def looking(position, forward):
+    pose = np.eye(4)
+    forward = np.asarray(forward) / np.linalg.norm(forward)
+    side = np.cross([0.0, 0.0, 1.0], forward)
+    pose[:3, :3] = np.stack([side, np.cross(forward, side), forward], axis=1)
+    pose[:3, 3] = position
+    return pose
+
+
+def visible(view, points):
+    """Whether points lie inside the camera's cone."""
+    axis = view.look_at - view.position
+    rays = points - view.position
+    cosine = rays @ axis / np.linalg.norm(rays, axis=1) / np.linalg.norm(axis)
+    return cosine > np.cos(FOV / 2 * 1.05)
+
+
+def test_a_single_sensor_and_its_points_are_in_the_picture():
+    wall = np.random.default_rng(0).uniform([0.8, -0.4, -0.4], [0.9, 0.4, 0.4], (60, 3))
+    view = first_view(wall, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV)
+    assert visible(view, np.zeros((1, 3))).all()
+    assert visible(view, wall).mean() > 0.9
+
+
+def test_far_walls_do_not_push_the_camera_away():
+    rng = np.random.default_rng(0)
+    near = rng.uniform(-0.5, 0.5, (300, 3))
+    far = near * 8
+    poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
+    alone = first_view(near, poses, np.eye(3), FOV)
+    both = first_view(np.vstack([near, far]), poses, np.eye(3), FOV)
+    assert np.linalg.norm(both.position) < 1.3 * np.linalg.norm(alone.position)
+
+
+def test_nothing_known_still_gives_a_view():
+    view = first_view(np.zeros((0, 3)), np.full((3, 4, 4), np.nan), np.eye(3), FOV)
+    assert np.isfinite(view.position).all()
+    assert np.linalg.norm(view.position - view.look_at) > 0.1
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_camera_is_above_what_it_looks_at(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(50, 3))
+    pose = looking(rng.normal(size=3), [*rng.normal(size=2), 0.1])
+    view = first_view(points, pose[None], np.eye(3), FOV)
+    assert view.position[2] > view.look_at[2]
+
+
+def test_an_optical_frame_is_drawn_with_its_y_axis_down():
+    R = upright("tof_front_optical_frame")
+    np.testing.assert_allclose(R @ R.T, np.eye(3))
+    assert np.linalg.det(R) == pytest.approx(1)
+    np.testing.assert_allclose(R @ [0, 1, 0], [0, 0, -1])
+    np.testing.assert_allclose(upright("world"), np.eye(3))
