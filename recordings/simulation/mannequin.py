@@ -47,7 +47,7 @@ _ARM = (
     (0.048, 0.012, 0.014, 0.000),
 )
 _SHOULDER = (0.212, 0.0, 0.165)
-_SPREAD = 0.16  # rad, of the arms away from the body
+_SPREAD = 0.5  # rad, of the arms away from the body
 GRIP = (0.0, 0.125, 0.13)
 """The middle of the outer side of the plate between the shoulders, metres in its frame."""
 _PLATE = (0.10, 0.06, 0.10)

@@ -61,7 +61,7 @@ SCENARIOS = {
         Scenario(
             "sideways",
             "the mannequin passes 0.25 m sideways, along x",
-            start=(-0.125, 0.0),
+            start=(-0.125, -0.12),
             mannequin=((0.25, 0.0, 0.0),),
         ),
         Scenario(

@@ -18,11 +18,11 @@ SURROUNDINGS, MANNEQUIN, OWN_ROBOT, SECOND_ROBOT = 0, 1, 2, 3
 """Numbers of objects in the truth; the links of the second robot follow from SECOND_ROBOT on."""
 
 # Where the middle of the mannequin's chest starts, in the fixed frame.
-_MANNEQUIN_PLACE = np.array([0.0, 0.75, 0.50])
+_MANNEQUIN_PLACE = np.array([0.0, 0.87, 0.43])
 # The second robot stands behind it, and looks at the first one.
-_SECOND_ROBOT_PLACE = np.array([0.0, 1.45, 0.0])
-_POSTURE = (np.pi / 2, -0.55, 0.0, -1.1, 0.0, 2.6, np.pi / 4)
-_SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 3.1, np.pi / 4)
+_SECOND_ROBOT_PLACE = np.array([0.0, 1.47, 0.0])
+_POSTURE = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
+_SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 2.75, np.pi / 4)
 _FINGERS = 0.105  # metres from the flange to what the fingers hold
 _JOINTS = tuple(f"panda_joint{i}" for i in range(1, 8))
 

@@ -48,7 +48,7 @@ def simulate(
     rng = np.random.default_rng([seed, trial, round(speed * 1e6), which])
     scene = Scene(scenario, speed, robot, rng.normal(0.0, _OFFSET, 3))
     rays = ZoneRays(rig)
-    static = PieceCaster(dict(enumerate(scene.static.values())))
+    static = PieceCaster(dict(enumerate(scene.static)))
     for k in range(int(scene.duration * RATE) + 1):
         time = k / RATE
         links = scene.own.link_poses(time)

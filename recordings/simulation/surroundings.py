@@ -1,35 +1,88 @@
 """The lab around the robots: what never moves.
 
-Boxes and cylinders at the places where a lab has them. They matter as much as the mannequin does:
-without anything static in sight Algorithm 1 finds no clusters.
+It matters as much as the mannequin does: without anything static in sight Algorithm 1 finds no
+clusters, and furniture within arm's reach is what a sensorised arm mostly sees.
 """
+
+from dataclasses import dataclass
 
 import trimesh
 
 _FLOOR = -0.75  # height below the robots' bases, metres
 
-# name: middle (x, y) and height of its lower side above the floor, size (x, y, z); metres
-_BOXES = {
-    "floor": ((0.2, 0.5, -0.05), (5.0, 5.2, 0.05)),
-    "ceiling": ((0.2, 0.5, 2.70), (5.0, 5.2, 0.05)),
-    "wall behind": ((0.2, -2.1, 0.0), (5.0, 0.1, 2.7)),
-    "wall ahead": ((0.2, 3.1, 0.0), (5.0, 0.1, 2.7)),
-    "wall left": ((-2.3, 0.5, 0.0), (0.1, 5.2, 2.7)),
-    "wall right": ((2.7, 0.5, 0.0), (0.1, 5.2, 2.7)),
-    "bench top": ((0.0, -0.25, 0.70), (1.4, 0.8, 0.05)),
-    "bench box": ((0.0, -0.25, 0.0), (1.2, 0.6, 0.70)),
-    "pedestal": ((0.0, 1.45, 0.0), (0.4, 0.4, 0.75)),
-    "cabinet": ((1.15, -0.1, 0.0), (0.5, 1.0, 1.9)),
-    "shelf": ((-1.15, -0.2, 0.0), (0.5, 1.2, 1.9)),
-    "rack": ((0.0, -1.1, 0.0), (1.2, 0.4, 1.9)),
-}
+
+@dataclass(frozen=True)
+class _Box:
+    """Middle (x, y), height of the lower side above the floor, size (x, y, z); metres."""
+
+    place: tuple[float, float, float]
+    size: tuple[float, float, float]
 
 
-def surroundings() -> dict[str, trimesh.Trimesh]:
-    """{name: mesh in the fixed frame} of everything that stands still."""
-    pieces: dict[str, trimesh.Trimesh] = {}
-    for name, ((x, y, height), size) in _BOXES.items():
-        piece = trimesh.creation.box(size)
-        piece.apply_translation((x, y, _FLOOR + height + size[2] / 2))
-        pieces[name] = piece
+_ROOM = (
+    _Box((0.2, 0.5, -0.05), (5.0, 5.2, 0.05)),
+    _Box((0.2, 0.5, 2.70), (5.0, 5.2, 0.05)),
+    _Box((0.2, -2.1, 0.0), (5.0, 0.1, 2.7)),
+    _Box((0.2, 3.1, 0.0), (5.0, 0.1, 2.7)),
+    _Box((-2.3, 0.5, 0.0), (0.1, 5.2, 2.7)),
+    _Box((2.7, 0.5, 0.0), (0.1, 5.2, 2.7)),
+)
+# The sensorised robot stands near the front edge of its bench, the second one on a pedestal.
+_BENCH = (
+    _Box((0.0, -0.25, 0.70), (1.5, 0.8, 0.05)),
+    _Box((0.0, -0.25, 0.12), (1.3, 0.6, 0.03)),
+    *(_Box((x, y, 0.0), (0.06, 0.06, 0.70)) for x in (-0.68, 0.68) for y in (-0.58, 0.08)),
+    _Box((0.45, -0.40, 0.15), (0.30, 0.36, 0.40)),
+)
+_PEDESTAL = (
+    _Box((0.0, 1.47, 0.0), (0.5, 0.5, 0.04)),
+    _Box((0.0, 1.47, 0.04), (0.28, 0.28, 0.67)),
+    _Box((0.0, 1.47, 0.71), (0.4, 0.4, 0.04)),
+)
+_CABINET = (
+    _Box((1.17, -0.1, 0.0), (0.50, 1.1, 0.10)),
+    _Box((1.15, -0.38, 0.10), (0.50, 0.54, 1.85)),
+    _Box((1.15, 0.18, 0.10), (0.50, 0.54, 1.85)),
+    _Box((0.89, -0.14, 0.95), (0.02, 0.03, 0.20)),
+    _Box((0.89, -0.06, 0.95), (0.02, 0.03, 0.20)),
+)
+_SHELF = (
+    _Box((-1.38, -0.2, 0.0), (0.02, 1.2, 1.95)),
+    _Box((-1.15, -0.81, 0.0), (0.46, 0.02, 1.95)),
+    _Box((-1.15, 0.41, 0.0), (0.46, 0.02, 1.95)),
+    *(_Box((-1.15, -0.2, z), (0.46, 1.2, 0.025)) for z in (0.10, 0.55, 1.00, 1.45, 1.93)),
+    _Box((-1.12, -0.55, 0.575), (0.38, 0.40, 0.30)),
+    _Box((-1.10, 0.10, 0.575), (0.36, 0.50, 0.34)),
+    _Box((-1.10, -0.45, 1.025), (0.36, 0.60, 0.32)),
+    _Box((-1.14, 0.15, 1.025), (0.40, 0.36, 0.28)),
+    _Box((-1.10, -0.50, 1.475), (0.36, 0.44, 0.36)),
+    _Box((-1.12, 0.05, 1.475), (0.38, 0.50, 0.30)),
+)
+_RACK = (
+    _Box((-0.33, -1.15, 0.0), (0.60, 0.50, 1.90)),
+    _Box((0.33, -1.15, 0.0), (0.66, 0.50, 1.05)),
+    _Box((0.30, -1.18, 1.05), (0.48, 0.40, 0.42)),
+    _Box((0.34, -1.14, 1.47), (0.42, 0.42, 0.36)),
+)
+_DESK = (
+    _Box((-1.75, 2.0, 0.70), (0.80, 1.60, 0.04)),
+    _Box((-1.75, 1.25, 0.0), (0.76, 0.04, 0.70)),
+    _Box((-1.75, 2.75, 0.0), (0.76, 0.04, 0.70)),
+    _Box((-1.95, 2.0, 0.84), (0.04, 0.62, 0.38)),
+    _Box((-1.97, 2.0, 0.74), (0.16, 0.22, 0.10)),
+    _Box((-1.10, 1.9, 0.44), (0.46, 0.46, 0.06)),
+    _Box((-0.90, 1.9, 0.50), (0.05, 0.42, 0.45)),
+    _Box((-1.10, 1.9, 0.0), (0.08, 0.08, 0.44)),
+)
+
+
+def surroundings() -> list[trimesh.Trimesh]:
+    """Everything that stands still, a closed mesh in the fixed frame for each surface."""
+    boxes = (*_ROOM, *_BENCH, *_PEDESTAL, *_CABINET, *_SHELF, *_RACK, *_DESK)
+    pieces: list[trimesh.Trimesh] = []
+    for box in boxes:
+        piece = trimesh.creation.box(box.size)
+        x, y, height = box.place
+        piece.apply_translation((x, y, _FLOOR + height + box.size[2] / 2))
+        pieces.append(piece)
     return pieces
