@@ -4,8 +4,8 @@ Colour = tuple[int, int, int]
 
 SOURCE: Colour = (214, 39, 40)
 TARGET: Colour = (31, 99, 200)
-FLOW: Colour = (22, 160, 70)
-TRUTH: Colour = (240, 150, 0)
+FLOW: Colour = (0, 130, 45)
+TRUTH: Colour = (235, 125, 0)
 SENSOR: Colour = (205, 20, 30)
 FIELD_OF_VIEW: Colour = (190, 110, 110)
 BRAND: Colour = (31, 99, 200)

@@ -12,7 +12,7 @@ TARGET_NODE = f"{FIXED}/target"
 FLOW_NODE = f"{FIXED}/flow"
 TRUTH_NODE = f"{FIXED}/truth"
 
-_HEAD = 0.025  # metres, an arrow's head at most
+_HEAD = 0.03  # metres, an arrow's head at most
 _NONE = np.zeros((0, 2, 3), dtype=np.float32)
 
 
@@ -39,7 +39,7 @@ class CloudsView:
             point_shading="flat",
             precision="float32",
         )
-        self._flow = scene.add_arrows(FLOW_NODE, _NONE, FLOW, shaft_radius=0.0022)
+        self._flow = scene.add_arrows(FLOW_NODE, _NONE, FLOW, shaft_radius=0.003)
         self._truth = scene.add_arrows(TRUTH_NODE, _NONE, TRUTH, shaft_radius=0.008)
 
     def show_source(self, points: NDArray[np.float64]) -> None:
@@ -60,7 +60,7 @@ class CloudsView:
             velocity: (N, 3) m/s; rows of NaN have no arrow.
             seconds: above 0.
         """
-        _draw(self._flow, arrows(points, velocity, seconds), head_width=0.3)
+        _draw(self._flow, arrows(points, velocity, seconds), head_width=0.32)
 
     def show_truth(
         self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float

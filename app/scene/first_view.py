@@ -40,7 +40,7 @@ def first_view(
     centre = (low + high) / 2
     radius = max(float(np.linalg.norm(high - low)) / 2, 0.25)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
-    return View(centre + direction * radius / np.sin(fov / 2), centre)
+    return View(centre + 0.85 * direction * radius / np.sin(fov / 2), centre)
 
 
 def _near(points: Vector, sensors: Vector) -> Vector:

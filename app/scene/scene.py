@@ -27,6 +27,8 @@ LAYERS = {
 }
 """{layer: the nodes that it switches}."""
 
+_ABOVE = 0.08  # metres from what moves to the truth's arrow
+
 
 @dataclass(frozen=True)
 class ViewSettings:
@@ -39,7 +41,7 @@ class ViewSettings:
     """
 
     arrow_scale: float = 0.5
-    point_size: float = 0.004
+    point_size: float = 0.003
     layers: frozenset[str] = frozenset(LAYERS)
 
 
@@ -116,7 +118,7 @@ class Scene:
             self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds)
         else:
             self._clouds.show_flow(none, none, seconds)
-        self._clouds.show_truth(*_truth_arrow(pair), seconds)
+        self._clouds.show_truth(*_truth_arrow(pair, self._turn[2]), seconds)
 
     def _show_layers(self) -> None:
         for layer, names in LAYERS.items():
@@ -125,11 +127,19 @@ class Scene:
                     node.visible = layer in self._settings.layers
 
 
-def _truth_arrow(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Where the truth's arrow starts (3,), and the moving object's velocity (3,) if it moves."""
+def _truth_arrow(
+    pair: Pair, up: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Where the truth's arrow starts, just above what moves, and its velocity; (3,) each.
+
+    Args:
+        pair: whose truth it is.
+        up: unit vector in the fixed frame.
+    """
     velocity = pair.object_velocity
-    if velocity is None or pair.source is None or len(pair.source.points) == 0:
+    if velocity is None or pair.source is None:
         return np.zeros(3), None
-    moving = pair.truly_moving
-    points = pair.source.points[moving] if moving.any() else pair.source.points
-    return np.median(points, axis=0), velocity
+    points = pair.source.points[pair.truly_moving]
+    middle = np.median(points, axis=0)
+    above = float(np.percentile((points - middle) @ up, 95)) + _ABOVE
+    return middle + above * up, velocity

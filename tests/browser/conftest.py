@@ -1,0 +1,82 @@
+"""A real Chromium looking at the app."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, BrowserContext, sync_playwright
+
+from app.estimates import Estimates
+from app.library import Library
+from app.reloads import Reloads
+from app.server import Server
+from app.session import Shared
+from estimator import Parameters
+from recordings import open_recording, sample_paths
+from tests.browser.tab import Tab
+
+_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+_FLAGS = [
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+]
+# What a test asks is in the scene tree; drawing it in software would only take time.
+_NO_DRAWING = """
+for (const context of [WebGLRenderingContext, WebGL2RenderingContext])
+  for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced",
+                      "drawRangeElements"])
+    if (context.prototype[name]) context.prototype[name] = () => {};
+"""
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    path = next(filter(None, map(shutil.which, _NAMES)), None)
+    if path is None:
+        pytest.fail("There is no Chromium; install it: sudo apt-get install chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=_FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def recordings_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The samples and a file that is no recording."""
+    folder = tmp_path_factory.mktemp("recordings")
+    for path in sample_paths():
+        shutil.copy(path, folder)
+    assert list(folder.glob("*robot_moving*")), "the samples are missing: make samples"
+    (folder / "zz_bad.mcap").write_bytes(b"this is no recording")
+    return folder
+
+
+@pytest.fixture
+def server(recordings_folder: Path) -> Iterator[Server]:
+    library = Library([recordings_folder], open_recording)
+    server = Server(Shared(library, Estimates(), Reloads(), Parameters()), "127.0.0.1", 0)
+    yield server
+    server.close()
+
+
+@pytest.fixture
+def context(chromium: Browser) -> Iterator[BrowserContext]:
+    context = chromium.new_context(viewport={"width": 900, "height": 700}, accept_downloads=True)
+    context.set_default_timeout(60_000)
+    context.add_init_script(_NO_DRAWING)
+    yield context
+    context.close()
+
+
+@pytest.fixture
+def tab(context: BrowserContext, server: Server) -> Tab:
+    return Tab(context, server.address)

@@ -1,0 +1,84 @@
+"""A page of the app, and what a person would do with it."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from playwright.sync_api import BrowserContext, Locator
+
+from app.scene.stage import FIXED
+
+_POINTS = """name => {
+  const node = window.__viserSceneTree.getState()[name];
+  return node ? Array.from(node.message.props.points) : null;
+}"""
+_NAMES = "() => Object.keys(window.__viserSceneTree.getState())"
+_POSES = """names => names.map(name => {
+  const node = window.__viserMutable.nodeRefFromName[name];
+  if (!node) return null;
+  node.updateWorldMatrix(true, false);
+  return Array.from(node.matrixWorld.elements);
+})"""
+
+
+class Tab:
+    """One browser tab that shows the app."""
+
+    def __init__(self, context: BrowserContext, address: str) -> None:
+        self.page = context.new_page()
+        self.page.goto(address)
+        self.page.wait_for_selector("canvas[data-engine]")
+        self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)
+
+    def until(self, condition: Callable[[], Any], timeout: float = 60.0) -> None:
+        end = time.monotonic() + timeout
+        while not condition():
+            assert time.monotonic() < end, "it did not come true in time"
+            self.page.wait_for_timeout(50)
+
+    def has_text(self, text: str) -> bool:
+        return self.page.get_by_text(text).count() > 0
+
+    def points(self, node: str) -> NDArray[np.float64]:
+        values = self.page.evaluate(_POINTS, f"{FIXED}/{node}")
+        return np.array(values or [], dtype=float).reshape(-1, 3)
+
+    def arrows(self) -> NDArray[np.float64]:
+        return self.points("flow").reshape(-1, 2, 3)
+
+    def frustums(self) -> list[str]:
+        """Names of the sensors that have a frustum."""
+        root = f"{FIXED}/frustums/"
+        types = "() => Object.entries(window.__viserSceneTree.getState()).filter("
+        types += "([_, node]) => node.message.type === 'CameraFrustumMessage').map(([n]) => n)"
+        return sorted(n.removeprefix(root) for n in self.page.evaluate(types) if n.startswith(root))
+
+    def poses(self, names: list[str]) -> NDArray[np.float64]:
+        """World poses (N, 4, 4) of nodes below the fixed frame, as the browser draws them."""
+        values = self.page.evaluate(_POSES, [f"{FIXED}/{name}" for name in names])
+        assert None not in values, f"not all of {names} are in the scene"
+        return np.array(values).reshape(-1, 4, 4).transpose(0, 2, 1)
+
+    def row(self, label: str) -> Locator:
+        """The row of the panel that holds a control."""
+        text = self.page.get_by_text(label, exact=True).first
+        return text.locator("xpath=ancestor::*[.//input or .//*[@role='slider']][1]")
+
+    def set_slider(self, label: str, key: str, times: int = 1) -> None:
+        """Move a slider with the keyboard."""
+        slider = self.row(label).locator("[role=slider]")
+        slider.focus()
+        for _ in range(times):
+            slider.press(key)
+            self.page.wait_for_timeout(60)  # viser's page sends at most 20 changes a second
+
+    def value(self, label: str) -> float:
+        return float(
+            self.row(label).locator("[role=slider]").get_attribute("aria-valuenow") or "nan"
+        )
+
+    def choose(self, recording: str) -> None:
+        self.row("Recording").locator("input").first.click()
+        self.page.get_by_role("option", name=recording).click()
