@@ -24,6 +24,10 @@ class Glide:
     pieces: NDArray[np.float64]
     speed: float
 
+    def __post_init__(self) -> None:
+        if not self.speed > 0:
+            raise ValueError(f"A speed must be above 0 m/s, got {self.speed}.")
+
     @property
     def length(self) -> float:
         """Metres of the whole path."""

@@ -61,7 +61,8 @@ SCENARIOS = {
         Scenario(
             "sideways",
             "the mannequin passes 0.25 m sideways, along x",
-            start=(-0.125, -0.12),
+            # The path is centred in front of the robot, where the first scenario is half-way.
+            start=(-0.125, -0.15),
             mannequin=((0.25, 0.0, 0.0),),
         ),
         Scenario(

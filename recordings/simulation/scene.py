@@ -17,11 +17,13 @@ from robot_assets import Robot, Transform
 SURROUNDINGS, MANNEQUIN, OWN_ROBOT, SECOND_ROBOT = 0, 1, 2, 3
 """Numbers of objects in the truth; the links of the second robot follow from SECOND_ROBOT on."""
 
-# Where the middle of the mannequin's chest starts, in the fixed frame.
-_MANNEQUIN_PLACE = np.array([0.0, 0.87, 0.43])
+# Where the middle of the mannequin's chest starts, in the fixed frame. Its front is then 0.75 m
+# from the robot's axis, as the distance in the paper is understood here.
+_MANNEQUIN_PLACE = np.array([0.0, 0.885, 0.43])
 # The second robot stands behind it, and looks at the first one.
-_SECOND_ROBOT_PLACE = np.array([0.0, 1.47, 0.0])
-_POSTURE = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
+_SECOND_ROBOT_PLACE = np.array([0.0, 1.485, 0.0])
+# Upright, so that all three rings look around the robot and not at ceiling and bench.
+_OWN_POSTURE = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
 _SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 2.75, np.pi / 4)
 _FINGERS = 0.105  # metres from the flange to what the fingers hold
 _JOINTS = tuple(f"panda_joint{i}" for i in range(1, 8))
@@ -71,7 +73,7 @@ class Scene:
         self._mannequin = mannequin()
         self._start = _MANNEQUIN_PLACE + np.array([*scenario.start, 0.0]) + offset
         self._robot = robot
-        self.own = Arm(robot, np.eye(4), _posture(_POSTURE), scenario.robot_glide())
+        self.own = Arm(robot, np.eye(4), _posture(_OWN_POSTURE), scenario.robot_glide())
         self._second = _second_arm(robot, self._start, self._glide)
         self.static = surroundings()
 
