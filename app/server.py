@@ -3,6 +3,7 @@
 import contextlib
 import io
 import socket
+import warnings
 
 import viser
 
@@ -33,6 +34,8 @@ class Server:
 
     def __init__(self, shared: Shared, host: str, port: int) -> None:
         _check_free(host, port)
+        # A client may leave while its session is drawing: nobody misses what is not delivered.
+        warnings.filterwarnings("ignore", message=r"Queued a .* on a closed connection")
         self._sessions: dict[int, Session] = {}
         # viser greets and takes its leave on the terminal; what people need, `view` tells them.
         with contextlib.redirect_stdout(io.StringIO()):

@@ -32,6 +32,11 @@ class ResetParameters(_LatestWins):
 
 
 @dataclass(frozen=True)
+class SaveParameters(_LatestWins):
+    """Save the parameters as a file that the command line takes."""
+
+
+@dataclass(frozen=True)
 class TakeScreenshot(_LatestWins):
     """Save what the page shows as a PNG file."""
 

@@ -12,6 +12,7 @@ from app.evaluation import counting_pairs
 from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox, Wish
 from app.page import Page
+from app.parameter_files import to_text
 from app.playback_clock import PlaybackClock
 from app.reloads import Left
 from app.scene.scene import Scene, ViewSettings
@@ -20,6 +21,7 @@ from app.wishes import (
     ChangeView,
     OpenRecording,
     ResetParameters,
+    SaveParameters,
     Seek,
     Step,
     TakeScreenshot,
@@ -90,6 +92,9 @@ class Workbench:
                 self._seek(self._frame + frames)
             case TogglePlay(times):
                 self._toggle(times)
+            case SaveParameters():
+                content = to_text(self._parameters).encode()
+                self._client.send_file_download("parameters.json", content, save_immediately=True)
             case TakeScreenshot() if self._opened:
                 self._page.screenshot.take(self._opened.recording.name, self._frame)
 

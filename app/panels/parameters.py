@@ -7,7 +7,7 @@ from typing import Any
 
 import viser
 
-from app.wishes import ChangeParameters, ResetParameters
+from app.wishes import ChangeParameters, ResetParameters, SaveParameters
 from estimator import PARAMETER_INFO, Parameters, method_names
 
 _UNSET = 0
@@ -30,7 +30,7 @@ class ParametersPanel:
         self,
         gui: viser.GuiApi,
         parameters: Parameters,
-        post: Callable[[ChangeParameters | ResetParameters], None],
+        post: Callable[[ChangeParameters | ResetParameters | SaveParameters], None],
     ) -> None:
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()
@@ -43,10 +43,20 @@ class ParametersPanel:
                 for name in _DEFAULTS:
                     if not PARAMETER_INFO[name].slider:
                         self._controls[name] = _add_field(gui, name, getattr(parameters, name))
+                save = gui.add_button(
+                    "Save parameters",
+                    icon=viser.Icon.DOWNLOAD,
+                    color="gray",
+                    hint="A file for --parameters of the command line.",
+                )
             reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE, color="gray")
 
         for name in self._controls:
             self._connect(name, post)
+
+        @save.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(SaveParameters())
 
         @reset.on_click
         async def _(_: viser.GuiEvent) -> None:
@@ -109,7 +119,9 @@ def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN
 
 
 def _add_field(gui: viser.GuiApi, name: str, value: Any) -> Any:  # noqa: ANN401 (of any parameter)
-    info, label = PARAMETER_INFO[name], name.replace("_", " ")
+    # A label's column breaks longer words anywhere.
+    label = name.replace("_", " ").replace("correspondence", "corresp.")
+    info = PARAMETER_INFO[name]
     if name == "method":
         return gui.add_dropdown(label, method_names(), initial_value=value, hint=_hint(name))
     if isinstance(_DEFAULTS[name], bool):

@@ -7,6 +7,7 @@ import pytest
 import app.estimates
 from app.estimates import Estimates
 from app.library import Library
+from app.parameter_files import from_text
 from app.reloads import Reloads
 from app.scene.stage import FIXED
 from app.session import Session, Shared
@@ -268,6 +269,15 @@ def test_a_screenshot_is_named_after_recording_and_frame(session, client):
     name, content = client.downloads[0]
     assert name == "a_frame_0024.png"
     assert content.startswith(b"\x89PNG")
+
+
+def test_saved_parameters_are_those_in_use(session, client):
+    client.change("δ", 0.3)
+    client.press("Save parameters")
+    until(lambda: client.downloads)
+    name, content = client.downloads[0]
+    assert name == "parameters.json"
+    assert from_text(content.decode(), name) == Parameters(delta=0.3)
 
 
 def test_a_screenshot_that_fails_is_told(session, client):
