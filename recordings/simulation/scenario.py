@@ -13,6 +13,9 @@ TRIALS = (1, 2, 3, 4, 5)
 
 _Path = tuple[tuple[float, float, float], ...]
 
+# Facing +y, and upright: all three rings look around the robot, and not at ceiling and bench.
+_UPRIGHT = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
+
 
 @dataclass(frozen=True)
 class Scenario:
@@ -25,6 +28,7 @@ class Scenario:
         mannequin: the straight pieces of the mannequin's path, metres in the fixed frame.
         robot: the straight pieces of the sensorised end-effector's path, empty where it rests.
         robot_speed: m/s of the sensorised end-effector.
+        posture: the seven joints of the sensorised arm at the start, rad.
     """
 
     name: str
@@ -33,6 +37,7 @@ class Scenario:
     mannequin: _Path
     robot: _Path = ()
     robot_speed: float = 0.25
+    posture: tuple[float, ...] = _UPRIGHT
 
     def mannequin_glide(self, speed: float) -> Glide:
         """The mannequin's motion at `speed` m/s."""

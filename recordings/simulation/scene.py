@@ -22,8 +22,6 @@ SURROUNDINGS, MANNEQUIN, OWN_ROBOT, SECOND_ROBOT = 0, 1, 2, 3
 _MANNEQUIN_PLACE = np.array([0.0, 0.885, 0.43])
 # The second robot stands behind it, and looks at the first one.
 _SECOND_ROBOT_PLACE = np.array([0.0, 1.485, 0.0])
-# Upright, so that all three rings look around the robot and not at ceiling and bench.
-_OWN_POSTURE = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
 _SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 2.75, np.pi / 4)
 _FINGERS = 0.105  # metres from the flange to what the fingers hold
 _JOINTS = tuple(f"panda_joint{i}" for i in range(1, 8))
@@ -73,7 +71,7 @@ class Scene:
         self._mannequin = mannequin()
         self._start = _MANNEQUIN_PLACE + np.array([*scenario.start, 0.0]) + offset
         self._robot = robot
-        self.own = Arm(robot, np.eye(4), _posture(_OWN_POSTURE), scenario.robot_glide())
+        self.own = Arm(robot, np.eye(4), _posture(scenario.posture), scenario.robot_glide())
         self._second = _second_arm(robot, self._start, self._glide)
         self.static = surroundings()
 

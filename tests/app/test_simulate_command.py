@@ -1,0 +1,126 @@
+from pathlib import Path
+
+import pytest
+
+from app.command_line import main
+from recordings import open_recording
+
+QUICK = ["--speed", "1", "--trial", "2", "--noise", "none"]
+
+
+def made(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_file_for_one_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    out = tmp_path / "mine.mcap"
+    assert main(["simulate", "sideways", *QUICK, "--seed", "9", "--out", str(out)]) == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert len(said.out.splitlines()) == 1
+    assert said.out.startswith(f"{out}: ")
+    assert "frames" in said.out
+    assert said.out.isascii()
+    with open_recording(out) as recording:
+        source = recording.provenance
+        assert source is not None
+        assert (source.scenario, source.speed, source.trial, source.seed) == ("sideways", 1.0, 2, 9)
+        assert source.noise.startswith("none")
+
+
+def test_a_file_without_speed_and_trial_is_one_recording(tmp_path: Path):
+    out = tmp_path / "mine.mcap"
+    assert main(["simulate", "towards", "--noise", "none", "--out", str(out)]) == 0
+    with open_recording(out) as recording:
+        assert recording.provenance is not None
+        assert (recording.provenance.speed, recording.provenance.trial) == (0.25, 1)
+
+
+def test_a_folder_for_several(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    out = tmp_path / "new" / "folder"
+    assert main(["simulate", "all", *QUICK, "--out", str(out)]) == 0
+    assert made(out) == ["robot_moving_1.00_2.mcap", "sideways_1.00_2.mcap", "towards_1.00_2.mcap"]
+    assert len(capsys.readouterr().out.splitlines()) == 3
+
+
+def test_all_combinations_once(tmp_path: Path):
+    arguments = ["towards", "towards", "--speed", "1", "0.875", "1", "--trial", "1", "2"]
+    assert main(["simulate", *arguments, "--noise", "none", "--out", str(tmp_path)]) == 0
+    assert made(tmp_path) == [
+        "towards_0.875_1.mcap",
+        "towards_0.875_2.mcap",
+        "towards_1.00_1.mcap",
+        "towards_1.00_2.mcap",
+    ]
+
+
+def test_a_simulated_recording_is_replaced_and_nothing_else_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    out = tmp_path / "towards_1.00_2.mcap"
+    assert main(["simulate", "towards", *QUICK, "--seed", "1", "--out", str(out)]) == 0
+    first = out.read_bytes()
+    assert main(["simulate", "towards", *QUICK, "--seed", "2", "--out", str(tmp_path)]) == 0
+    assert out.read_bytes() != first
+    out.write_bytes(b"measured for weeks")
+    assert main(["simulate", "towards", *QUICK, "--out", str(tmp_path)]) == 1
+    assert out.read_bytes() == b"measured for weeks"
+    assert f"{out} exists and is not a simulated recording" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["all", "--out", "x.mcap"], "x.mcap is a file, which holds one recording, and 3 are"),
+        (["towards", "--trial", "1", "2", "--out", "x.mcap"], "and 2 are asked for"),
+        (["towards", "--speed", "0", "--out", "x"], "--speed must be above 0 and at most 1 m/s"),
+        (["towards", "--speed", "nan", "--out", "x"], "--speed must be above 0 and at most 1 m/s"),
+        (["towards", "--trial", "0", "--out", "x"], "--trial must be 1 or more, got 0"),
+        (["towards", "--seed", "-1", "--out", "x"], "--seed must be 0 or more, got -1"),
+        (["towards", "--out", "no/where/x.mcap"], "no/where/x.mcap cannot be written"),
+        (["towards", "--out", "taken/inside"], "The folder taken/inside cannot be made"),
+    ],
+)
+def test_wrong_arguments_are_one_sentence(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    said: str,
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "taken").write_text("a file")
+    assert main(["simulate", *arguments]) == 1
+    errors = capsys.readouterr().err.strip().splitlines()
+    assert len(errors) == 1
+    assert said in errors[0]
+    assert made(tmp_path) == ["taken"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["backwards", "--out", "x"], "towards"),
+        (["towards"], "--out"),
+        (["towards", "--out", "x", "--noise", "loud"], "paper"),
+    ],
+)
+def test_unknown_names_are_one_sentence_that_lists_the_known(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+):
+    with pytest.raises(SystemExit) as stop:
+        main(["simulate", *arguments])
+    assert stop.value.code == 2
+    errors = capsys.readouterr().err.strip().splitlines()
+    assert len(errors) == 1
+    assert said in errors[0]
+
+
+def test_help_says_what_happens_to_files_that_exist(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit) as stop:
+        main(["simulate", "--help"])
+    assert stop.value.code == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "exists under the name is replaced" in text
+    for name in ("towards", "sideways", "robot_moving", "all", "8 to 11 %"):
+        assert name in text

@@ -1,0 +1,65 @@
+import numpy as np
+import pytest
+
+from recordings.simulation.scenario import SCENARIOS
+from recordings.simulation.scene import MANNEQUIN, OWN_ROBOT, SECOND_ROBOT, Scene
+from robot_assets import load_robot
+
+ROBOT = load_robot()
+OFFSET = np.array([0.01, -0.005, 0.002])
+
+
+@pytest.fixture(scope="module", params=list(SCENARIOS))
+def scene(request: pytest.FixtureRequest) -> Scene:
+    return Scene(SCENARIOS[request.param], 0.2, ROBOT, OFFSET)
+
+
+def test_bodies_are_the_mannequin_and_both_robots(scene: Scene):
+    numbers = [body.number for body in scene.bodies(0.0)]
+    links = len(ROBOT.collision_meshes)
+    assert numbers == [MANNEQUIN, *[OWN_ROBOT] * links, *range(SECOND_ROBOT, SECOND_ROBOT + links)]
+
+
+def test_velocities_are_the_derivatives_of_where_points_are(scene: Scene):
+    step = 1e-3
+    for time in (0.3, 1.0, 1.5):
+        moments = zip(*(scene.bodies(t) for t in (time - step, time, time + step)), strict=True)
+        for before, now, after in moments:
+            points = now.mesh.vertices[::50]
+            place = [points @ b.T_fixed_body[:3, :3].T + b.T_fixed_body[:3, 3] for b in
+                     (before, now, after)]  # fmt: skip
+            derivative = (place[2] - place[0]) / (2 * step)
+            assert now.velocity(place[1]) == pytest.approx(derivative, abs=2e-4)
+
+
+def test_the_mannequin_is_in_pure_translation(scene: Scene):
+    start, end = scene.T_base_target(0.0), scene.T_base_target(scene.duration)
+    assert start[:3, :3] == pytest.approx(np.eye(3))
+    assert end[:3, :3] == pytest.approx(np.eye(3))
+    assert np.linalg.norm(end - start) == pytest.approx(
+        0.25 if scene.target_velocity(1.0)[0] > 0 else 0.30
+    )
+    assert np.linalg.norm(scene.target_velocity(1.0)) == pytest.approx(0.2)
+
+
+def test_the_second_robot_holds_the_mannequin_all_the_time(scene: Scene):
+    hand = list(ROBOT.collision_meshes).index("panda_hand")
+    holding: list[np.ndarray] = []
+    for time in (0.0, 1.0, 1.5, scene.duration):
+        mannequin = scene.bodies(time)[0]
+        second = next(b for b in scene.bodies(time) if b.number == SECOND_ROBOT + hand)
+        holding.append(second.T_fixed_body[:3, 3] - mannequin.T_fixed_body[:3, 3])
+        assert second.velocity(second.T_fixed_body[:3, 3][None])[0] == pytest.approx(
+            scene.target_velocity(time), abs=2e-3
+        )
+    assert np.ptp(holding, axis=0) == pytest.approx(np.zeros(3), abs=5e-5)
+
+
+@pytest.mark.parametrize("name", list(SCENARIOS))
+@pytest.mark.parametrize("corner", [(-1, -1, -1), (1, 1, 1), (-1, 1, -1), (1, -1, 1)])
+def test_the_second_robot_reaches_wherever_a_trial_starts(name: str, corner: tuple[int, int, int]):
+    offset = 0.015 * np.array(corner)
+    scene = Scene(SCENARIOS[name], 0.3, ROBOT, offset)
+    nominal = Scene(SCENARIOS[name], 0.3, ROBOT, np.zeros(3))
+    shift = scene.T_base_target(0.0) - nominal.T_base_target(0.0)
+    assert shift[:3, 3] == pytest.approx(offset)

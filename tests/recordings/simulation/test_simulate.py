@@ -1,0 +1,209 @@
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from estimator import Parameters, PooledErrors, estimate_scene_flow
+from recordings import Frame, open_recording, sample_paths
+from recordings.simulation import (
+    NOISE_MODELS,
+    SCENARIOS,
+    Scenario,
+    simulate,
+    write_simulation,
+)
+from recordings.simulation.scene import MANNEQUIN, OWN_ROBOT, SECOND_ROBOT, SURROUNDINGS
+from robot_assets import load_rig, load_robot
+
+ROBOT, RIG = load_robot(), load_rig()
+# In this posture the robot sees itself, as it does not when it stands upright.
+BENT = replace(
+    SCENARIOS["robot_moving"], posture=(np.pi / 2, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785)
+)
+
+
+def frames(
+    scenario: Scenario,
+    speed: float = 0.6,
+    trial: int = 1,
+    seed: int = 0,
+    noise: str = "none",
+) -> Iterator[Frame]:
+    return simulate(
+        scenario,
+        speed=speed,
+        trial=trial,
+        seed=seed,
+        noise=NOISE_MODELS[noise],
+        robot=ROBOT,
+        rig=RIG,
+    )
+
+
+@pytest.fixture(scope="module")
+def exact() -> list[Frame]:
+    return list(frames(BENT))
+
+
+def test_there_are_fifteen_frames_a_second_from_rest_to_rest(exact: list[Frame]):
+    stamps = np.array([frame.stamp for frame in exact])
+    assert np.diff(stamps) == pytest.approx(np.full(len(exact) - 1, 1 / 15))
+    speeds = [float(np.linalg.norm(frame.target_velocity)) for frame in exact]
+    assert speeds[0] == speeds[-1] == 0.0
+    moving = np.flatnonzero(speeds)
+    assert 0.30 / 0.6 * 15 - 1 <= len(moving) <= 0.30 / 0.6 * 15 + 1
+    assert np.ptp(moving) == len(moving) - 1
+    assert {round(speeds[k], 9) for k in moving} == {0.6}
+
+
+def test_truth_is_where_exact_readings_are(exact: list[Frame]):
+    for frame in exact[::5]:
+        links = ROBOT.link_poses(frame.joint_positions)
+        T = np.stack([links[s.link] @ s.T_link_sensor for s in RIG.sensors])
+        in_sensor = frame.ranges[..., None] * RIG.model.directions
+        points = np.einsum("sij,srcj->srci", T[:, :3, :3], in_sensor) + T[:, None, None, :3, 3]
+        truth = frame.truth
+        assert len(truth.points) == np.isfinite(frame.ranges).sum()
+        assert truth.points == pytest.approx(
+            points.reshape(24, 64, 3)[truth.sensor, truth.zone], abs=1e-9
+        )
+
+
+def test_truth_tells_what_moves_how(exact: list[Frame]):
+    for frame in exact:
+        truth = frame.truth
+        assert set(np.unique(truth.object)) >= {SURROUNDINGS, MANNEQUIN, OWN_ROBOT}
+        assert not truth.velocity[truth.object == SURROUNDINGS].any()
+        mannequin = truth.velocity[truth.object == MANNEQUIN]
+        assert mannequin == pytest.approx(np.tile(frame.target_velocity, (len(mannequin), 1)))
+        assert (truth.object < SECOND_ROBOT + len(ROBOT.collision_meshes)).all()
+    own = [f.truth.velocity[f.truth.object == OWN_ROBOT] for f in exact]
+    assert not own[0].any()
+    assert max(np.linalg.norm(v, axis=1).max(initial=0.0) for v in own) > 0.1
+
+
+def test_the_sensors_see_enough_of_the_mannequin(exact: list[Frame]):
+    seen = [int((frame.truth.object == MANNEQUIN).sum()) for frame in exact]
+    assert min(seen) > 60
+    assert max(seen) < 250
+
+
+def test_the_same_seed_gives_the_same_frames_and_another_gives_others():
+    towards = SCENARIOS["towards"]
+    first = list(frames(towards, noise="paper"))
+    again = list(frames(towards, noise="paper"))
+    for a, b in zip(first, again, strict=True):
+        assert np.array_equal(a.ranges, b.ranges, equal_nan=True)
+        assert np.array_equal(a.truth.points, b.truth.points)
+        assert np.array_equal(a.T_base_target, b.T_base_target)
+    others = [frames(towards, noise="paper", seed=1), frames(towards, noise="paper", trial=2)]
+    for other in map(next, others):
+        assert not np.array_equal(first[0].ranges, other.ranges, equal_nan=True)
+        shift = np.abs(other.T_base_target - first[0].T_base_target).max()
+        assert 0.0 < shift <= 0.03
+
+
+def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Path):
+    paths = [tmp_path / "a" / "x.mcap", tmp_path / "b" / "x.mcap"]
+    counts: list[int] = []
+    for path in paths:
+        path.parent.mkdir()
+        written = write_simulation(
+            path,
+            SCENARIOS["sideways"],
+            speed=0.9,
+            trial=3,
+            seed=5,
+            noise=NOISE_MODELS["paper"],
+            robot=ROBOT,
+            rig=RIG,
+        )
+        counts.append(written)
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    with open_recording(paths[0]) as recording:
+        assert [len(recording)] * 2 == counts
+        assert recording.warnings == ()
+        source = recording.provenance
+        assert source is not None
+        assert source.simulated
+        assert (source.scenario, source.speed, source.trial, source.seed) == ("sideways", 0.9, 3, 5)
+        assert source.noise.startswith("paper: Gaussian")
+        assert source.command == (
+            "tofscope simulate sideways --speed 0.9 --trial 3 --seed 5 --noise paper --out x.mcap"
+        )
+
+
+def test_the_reader_removes_the_robots_own_body(tmp_path: Path):
+    path = tmp_path / "x.mcap"
+    write_simulation(
+        path,
+        BENT,
+        speed=0.6,
+        trial=1,
+        seed=0,
+        noise=NOISE_MODELS["paper"],
+        robot=ROBOT,
+        rig=RIG,
+    )
+    made = list(frames(BENT, noise="paper"))
+    with open_recording(path) as recording:
+        assert {s.name for s in recording.sensors} == {s.name for s in RIG.sensors}
+        where = [[s.name for s in recording.sensors].index(s.name) for s in RIG.sensors]
+        for k in range(0, len(recording), 6):
+            cloud, truth = recording.cloud(k), made[k].truth
+            numbers = np.full(24 * 64, -1)
+            numbers[np.array(where)[truth.sensor] * 64 + truth.zone] = truth.object
+            seen = numbers[cloud.sensor * 64 + cloud.zone]
+            assert (numbers == OWN_ROBOT).sum() > 30
+            assert OWN_ROBOT not in seen
+            assert (seen == MANNEQUIN).sum() > 60
+
+
+def test_samples_are_one_of_each_scenario_and_small():
+    paths = sample_paths()
+    assert sum(path.stat().st_size for path in paths) < 3e6
+    scenarios: list[str] = []
+    for path in paths:
+        with open_recording(path) as recording:
+            assert recording.simulated
+            assert recording.provenance is not None
+            scenarios.append(recording.provenance.scenario)
+    assert sorted(scenarios) == sorted(SCENARIOS)
+
+
+@pytest.mark.parametrize("scenario", list(SCENARIOS))
+def test_samples_are_what_the_simulator_makes(scenario: str):
+    path = next(p for p in sample_paths() if p.stem.startswith(scenario + "_0"))
+    with open_recording(path) as recording:
+        source = recording.provenance
+        assert source is not None
+        made = list(frames(SCENARIOS[scenario], source.speed, source.trial, source.seed, "paper"))
+        assert len(made) == len(recording)
+        for k in (0, len(made) // 2, len(made) - 1):
+            difference = np.abs(recording.cloud(k).ranges - made[k].ranges)
+            assert np.nanmedian(difference) < 6e-4
+            # Rays that graze an edge may fall to either side on another processor.
+            assert np.nanmean(difference < 6e-4) > 0.99
+
+
+@pytest.mark.parametrize(("scenario", "coverage"), [("towards", 0.9), ("sideways", 0.8)])
+def test_algorithm_1_finds_the_motion_in_the_samples(scenario: str, coverage: float):
+    path = next(p for p in sample_paths() if p.stem.startswith(scenario))
+    errors = PooledErrors()
+    with open_recording(path) as recording:
+        for k in range(8, len(recording)):
+            truth = recording.pair_truth(k - 8, k)
+            ends = [recording.truth(k - 8), recording.truth(k)]
+            if truth is None or any(v is None or not v.any() for v in ends):
+                continue
+            interval = float(recording.stamps[k] - recording.stamps[k - 8])
+            source, target = recording.cloud(k - 8), recording.cloud(k)
+            flow = estimate_scene_flow(source, target, interval, Parameters())
+            errors.add(flow, interval, truth.velocity, truth.points)
+    metrics = errors.metrics()
+    assert metrics.pairs >= 6
+    assert metrics.angle_deg < 18
+    assert metrics.velocity_error < 0.09
+    assert metrics.coverage > coverage
