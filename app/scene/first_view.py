@@ -33,7 +33,7 @@ def first_view(
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     near = _near(points @ R_drawing_fixed.T, sensors)
     # Of the points a few may be wild; of the sensors every one is to be seen.
-    corners = np.vstack([sensors, np.percentile(near, [3, 97], axis=0)]) if len(near) else sensors
+    corners = np.vstack([sensors, np.percentile(near, [5, 95], axis=0)]) if len(near) else sensors
     if len(corners) == 0:
         corners = np.zeros((1, 3))
     low, high = corners.min(axis=0), corners.max(axis=0)

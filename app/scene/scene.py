@@ -27,7 +27,7 @@ LAYERS = {
 }
 """{layer: the nodes that it switches}."""
 
-_ABOVE = 0.08  # metres from what moves to the truth's arrow
+_ABOVE = 0.12  # metres from what moves to the truth's arrow
 
 
 @dataclass(frozen=True)
@@ -141,5 +141,5 @@ def _truth_arrow(
         return np.zeros(3), None
     points = pair.source.points[pair.truly_moving]
     middle = np.median(points, axis=0)
-    above = float(np.percentile((points - middle) @ up, 95)) + _ABOVE
+    above = float(np.percentile((points - middle) @ up, 80)) + _ABOVE
     return middle + above * up, velocity

@@ -18,12 +18,16 @@ def looking(position, forward):
     return pose
 
 
-def visible(view, points):
-    """Whether points lie inside the camera's cone."""
-    axis = view.look_at - view.position
+def visible(view, points, aspect=1.3):
+    """Whether points lie inside the picture of a camera with z up."""
+    forward = view.look_at - view.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
     rays = points - view.position
-    cosine = rays @ axis / np.linalg.norm(rays, axis=1) / np.linalg.norm(axis)
-    return cosine > np.cos(FOV / 2 * 1.05)
+    depth = rays @ forward
+    high = np.abs(rays @ np.cross(right, forward)) <= depth * np.tan(FOV / 2)
+    return high & (np.abs(rays @ right) <= depth * np.tan(FOV / 2) * aspect)
 
 
 def test_a_single_sensor_and_its_points_are_in_the_picture():
