@@ -100,8 +100,8 @@ class Workbench:
 
     def draw(self) -> None:
         """Bring scene and page up to date, with whatever frame is due by now."""
-        if self._opened is None:
-            return
+        if self._opened is None or self._mailbox.waits(OpenRecording):
+            return  # nothing is computed for a recording that is about to be left
         self._follow_clock()
         wanted = (self._opened, self._frame, self._parameters)
         try:

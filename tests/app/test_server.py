@@ -1,0 +1,60 @@
+import socket
+from typing import Any
+
+import pytest
+from viser import _messages
+
+from app.errors import InputError
+from app.estimates import Estimates
+from app.library import Library
+from app.reloads import Reloads
+from app.server import Server
+from app.session import Shared
+from estimator import Parameters
+from tests.app.fake_recordings import fake_recording
+
+
+@pytest.fixture
+def shared(tmp_path):
+    library = Library([tmp_path], lambda path: fake_recording(name=path.stem))
+    return Shared(library, Estimates(), Reloads(), Parameters())
+
+
+@pytest.fixture
+def server(shared):
+    server = Server(shared, "127.0.0.1", 0)
+    yield server
+    server.close()
+
+
+def test_it_listens_on_this_machine_alone(server):
+    assert server.address == f"http://127.0.0.1:{server.port}"
+    with socket.create_connection(("127.0.0.1", server.port), timeout=5):
+        pass
+    assert server._server.get_host() == "127.0.0.1"
+
+
+def test_no_page_can_make_it_public(server, monkeypatch):
+    def tunnel(*_: Any):
+        pytest.fail("a tunnel was opened")
+
+    monkeypatch.setattr("viser._viser.ViserTunnel", tunnel)
+    handlers = server._server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
+    for handler in handlers:
+        handler(1, _messages.ShareUrlRequest())
+    server._server._thread_executor.shutdown(wait=True)
+    assert server._server._share_tunnel is None
+    assert server._server.request_share_url() is None
+
+
+def test_a_port_in_use_is_not_swapped_for_another(server, shared):
+    with pytest.raises(InputError, match=f"port {server.port}"):
+        Server(shared, "127.0.0.1", server.port)
+
+
+def test_it_says_nothing_on_the_terminal_and_frees_its_port(shared, capfd):
+    server = Server(shared, "127.0.0.1", 0)
+    port = server.port
+    server.close()
+    Server(shared, "127.0.0.1", port).close()
+    assert capfd.readouterr() == ("", "")
