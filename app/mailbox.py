@@ -2,7 +2,10 @@
 
 import threading
 from collections.abc import Hashable
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
 
 
 class Wish(Protocol):
@@ -10,6 +13,10 @@ class Wish(Protocol):
 
     def after(self, earlier: Self) -> Self:
         """The one wish that stands for an `earlier` one, not yet taken, and this one."""
+        ...
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Do what is wished, in the session's thread; may raise what a person is to be told."""
         ...
 
 

@@ -1,58 +1,55 @@
 """The page of one browser client: its panels, in their order."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import viser
 
-from app.library import Entry, Opened
-from app.mailbox import Wish
+from app.library import Opened
+from app.panel import Desk, Panel, Shown
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.recordings import RecordingsPanel
 from app.panels.screenshot import ScreenshotPanel
 from app.panels.status import StatusPanel
 from app.panels.view import ViewPanel
-from app.scene.scene import ViewSettings
-from estimator import Parameters
 
 TITLE = "Tofscope"
 
 
 class Page:
-    """All panels of a client.
+    """All panels of a client, from top to bottom.
 
-    Args:
-        client: the browser client.
-        entries: recordings to choose from, at least one.
-        parameters: to begin with.
-        settings: to begin with.
-        post: takes wishes, from any thread.
+    Attributes:
+        parameters: the panel that changes of parameters are accepted and refused in.
     """
 
-    def __init__(
-        self,
-        client: viser.ClientHandle,
-        entries: Sequence[Entry],
-        parameters: Parameters,
-        settings: ViewSettings,
-        post: Callable[[Wish], None],
-    ) -> None:
-        self._client = client
-        self.recordings = RecordingsPanel(client.gui, entries, post)
-        self.playback = PlaybackPanel(client.gui, post)
-        self.status = StatusPanel(client.gui)
-        self.parameters = ParametersPanel(client.gui, parameters, post)
-        self.view = ViewPanel(client.gui, settings, post)
-        self.screenshot = ScreenshotPanel(client, post)
+    def __init__(self, desk: Desk) -> None:
+        self._client = desk.client
+        self._panels: list[Panel] = [
+            RecordingsPanel(desk),
+            PlaybackPanel(desk),
+            StatusPanel(desk),
+        ]
+        self.parameters = ParametersPanel(desk)
+        self._panels += [
+            self.parameters,
+            ViewPanel(desk),
+            ScreenshotPanel(desk),
+        ]
 
     def open(self, opened: Opened) -> None:
-        """Show which recording is open, and what could not be used of it."""
+        """Prepare for a recording that was opened, and say what could not be used of it."""
         recording, label = opened.recording, opened.entry.label
-        self.recordings.show(opened)
-        self.playback.open(len(recording))
+        for panel in self._panels:
+            panel.open(opened)
         self._client.gui.set_panel_label(f"{TITLE} (simulated)" if recording.simulated else TITLE)
         for warning in recording.warnings:
             self._client.add_notification(label, warning, color="yellow", auto_close_seconds=15)
+
+    def show(self, shown: Shown) -> None:
+        """Show what the session shows."""
+        for panel in self._panels:
+            panel.show(shown)
 
 
 def show_empty_page(client: viser.ClientHandle, folders: Sequence[str]) -> None:

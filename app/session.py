@@ -105,7 +105,7 @@ class Session:
 
     def _serve(self, workbench: Workbench) -> None:
         while (wishes := self._mailbox.take(workbench.wait())) is not None:
-            fine = [self._try(lambda wish=wish: workbench.fulfil(wish)) for wish in wishes]
+            fine = [self._try(lambda wish=wish: wish.fulfil(workbench)) for wish in wishes]
             fine.append(self._try(workbench.draw))
             if all(fine):
                 self._said = ""

@@ -1,44 +1,53 @@
-"""What a person can wish for in a session."""
+"""What a person can wish for in a session; a panel with wishes of its own defines them itself."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
+
+from estimator import ParameterError
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
 
 
 @dataclass(frozen=True)
-class _LatestWins:
+class LatestWins:
+    """Of several wishes of one kind the latest is the one that counts."""
+
     def after(self, earlier: Self) -> Self:
         """The latest of two wishes is the one that counts."""
         return self
 
 
 @dataclass(frozen=True)
-class OpenRecording(_LatestWins):
+class OpenRecording(LatestWins):
     """Show the recording with this label in the list."""
 
     label: str
 
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Open it."""
+        workbench.open(self.label)
+
 
 @dataclass(frozen=True)
-class Seek(_LatestWins):
+class Seek(LatestWins):
     """Show this frame; a number outside the recording means its first or last one."""
 
     frame: int
 
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Go there."""
+        workbench.seek(self.frame)
+
 
 @dataclass(frozen=True)
-class ResetParameters(_LatestWins):
+class ResetParameters(LatestWins):
     """Estimate with the parameters that the app was started with from now on."""
 
-
-@dataclass(frozen=True)
-class SaveParameters(_LatestWins):
-    """Save the parameters as a file that the command line takes."""
-
-
-@dataclass(frozen=True)
-class TakeScreenshot(_LatestWins):
-    """Save what the page shows as a PNG file."""
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Put them back."""
+        workbench.set_parameters(workbench.defaults)
 
 
 @dataclass(frozen=True)
@@ -51,6 +60,15 @@ class ChangeParameters:
         """Both changes, the later value of each parameter."""
         return type(self)({**earlier.values, **self.values})
 
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Take them, or say why not."""
+        try:
+            workbench.change_parameters(self.values)
+        except ParameterError as error:
+            workbench.page.parameters.refuse(self.values, str(error))
+        else:
+            workbench.page.parameters.accept(workbench.parameters)
+
 
 @dataclass(frozen=True)
 class ChangeView:
@@ -61,6 +79,10 @@ class ChangeView:
     def after(self, earlier: Self) -> Self:
         """Both changes, the later value of each setting."""
         return type(self)({**earlier.values, **self.values})
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Draw so."""
+        workbench.change_view(self.values)
 
 
 @dataclass(frozen=True)
@@ -73,6 +95,10 @@ class Step:
         """Both steps."""
         return type(self)(earlier.frames + self.frames)
 
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Go there."""
+        workbench.seek(workbench.frame + self.frames)
+
 
 @dataclass(frozen=True)
 class TogglePlay:
@@ -83,3 +109,8 @@ class TogglePlay:
     def after(self, earlier: Self) -> Self:
         """All the times."""
         return type(self)(earlier.times + self.times)
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Play or pause."""
+        if self.times % 2:
+            workbench.toggle_play()

@@ -1,33 +1,24 @@
 """What a session holds, and what becomes of it at each wish; used by one thread alone."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import viser
 
-from app.estimates import Estimates
+from app.estimates import Estimates, Pair
 from app.evaluation import counting_pairs
 from app.library import Entry, Library, Opened
-from app.mailbox import Mailbox, Wish
+from app.mailbox import Mailbox
 from app.page import Page
-from app.parameter_files import to_text
+from app.panel import Desk, Shown
 from app.playback_clock import PlaybackClock
 from app.reloads import Left
-from app.scene.scene import Scene, ViewSettings
-from app.wishes import (
-    ChangeParameters,
-    ChangeView,
-    OpenRecording,
-    ResetParameters,
-    SaveParameters,
-    Seek,
-    Step,
-    TakeScreenshot,
-    TogglePlay,
-)
-from estimator import ParameterError, Parameters
+from app.scene.scene import Scene
+from app.scene.settings import ViewSettings
+from app.wishes import OpenRecording, Seek
+from estimator import Parameters
 from recordings import Recording
 
 
@@ -54,144 +45,129 @@ class Workbench:
         defaults: Parameters,
         mailbox: Mailbox,
     ) -> None:
-        self._client = client
+        self.client = client
         self._library = library
         self._mailbox = mailbox
         self._estimates = estimates
         self._entries = {entry.label: entry for entry in entries}
-        self._parameters = parameters
-        self._defaults = defaults
-        self._settings = ViewSettings()
-        self._opened: Opened | None = None
+        self.parameters = parameters
+        self.defaults = defaults
+        self.settings = ViewSettings()
+        self.opened: Opened | None = None
         self._clock = PlaybackClock([0.0])
-        self._frame = 0
+        self.frame = 0
         self._drawn: tuple[Opened, int, Parameters] | None = None
-        self._scene = Scene(client, self._settings)
-        self._page = Page(client, entries, parameters, self._settings, mailbox.post)
+        self._scene = Scene(client, self.settings)
+        self._pair: Pair | None = None
+        self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post))
 
     def wait(self) -> float | None:
         """Seconds until a frame is due, None where none will be."""
-        return self._clock.wait(self._frame, time.monotonic())
-
-    def fulfil(self, wish: Wish) -> None:
-        """Do what is wished, without drawing the pair yet."""
-        match wish:
-            case OpenRecording(label):
-                self._open(label)
-            case ChangeParameters(values):
-                self._change_parameters(dict(values))
-            case ResetParameters():
-                self._parameters = self._defaults
-                self._page.parameters.show(self._parameters)
-            case ChangeView(values):
-                self._settings = replace(self._settings, **dict(values))
-                self._scene.change(self._settings)
-            case Seek(frame):
-                self._seek(frame)
-            case Step(frames):
-                self._seek(self._frame + frames)
-            case TogglePlay(times):
-                self._toggle(times)
-            case SaveParameters():
-                content = to_text(self._parameters).encode()
-                self._client.send_file_download("parameters.json", content, save_immediately=True)
-            case TakeScreenshot() if self._opened:
-                self._page.screenshot.take(self._opened.recording.name, self._frame)
+        return self._clock.wait(self.frame, time.monotonic())
 
     def draw(self) -> None:
         """Bring scene and page up to date, with whatever frame is due by now."""
-        if self._opened is None or self._mailbox.waits(OpenRecording):
+        if self.opened is None or self._mailbox.waits(OpenRecording):
             return  # nothing is computed for a recording that is about to be left
         self._follow_clock()
-        wanted = (self._opened, self._frame, self._parameters)
+        wanted = (self.opened, self.frame, self.parameters)
         try:
             if wanted != self._drawn:
                 self._draw_pair(*wanted)
         finally:
             # Where a frame cannot be drawn, its number is shown all the more.
-            stamps = self._opened.recording.stamps
-            seconds = float(stamps[self._frame] - stamps[0])
-            self._page.playback.show(
-                self._frame,
-                len(stamps),
-                seconds,
-                playing=self._clock.playing,
-                seeking=self._mailbox.waits(Seek),
-            )
+            self.page.show(self._shown(self.opened))
+
+    def open(self, label: str) -> None:
+        """Open the recording with this label; one that is not in the list is ignored."""
+        # Only what the server listed is ever opened, whatever a browser sends.
+        entry = self._entries.get(label)
+        if entry is None or (self.opened is not None and self.opened.entry == entry):
+            return
+        opened = self._library.open(entry)
+        before, self.opened = self.opened, opened
+        if before is not None:
+            self._library.release(before.entry)
+        recording = opened.recording
+        self._clock = PlaybackClock(recording.stamps)
+        self.frame = opening_frame(recording, self.parameters.n)
+        with self.client.atomic():
+            self._scene.open(recording)
+        self.page.open(opened)
+
+    def seek(self, frame: int) -> None:
+        """Go to a frame; a number outside the recording means its first or last one."""
+        if self.opened is None:
+            return
+        self.frame = min(max(frame, 0), len(self.opened.recording) - 1)
+        if self._clock.playing:
+            self._clock.play(self.frame, time.monotonic())
+
+    def toggle_play(self) -> None:
+        """Play where it stands still, and the other way round."""
+        if self.opened is None:
+            return
+        if self._clock.playing:
+            self._clock.pause()
+        else:
+            at_end = self.frame == len(self.opened.recording) - 1
+            self._clock.play(0 if at_end else self.frame, time.monotonic())
+
+    def change_parameters(self, values: Mapping[str, Any]) -> None:
+        """Change some parameters, {name: value}; ParameterError where one is out of range."""
+        self.parameters = replace(self.parameters, **values)
+
+    def set_parameters(self, parameters: Parameters) -> None:
+        """Take other parameters, and show them in the page's controls."""
+        self.parameters = parameters
+        self.page.parameters.replace(parameters)
+
+    def change_view(self, values: Mapping[str, Any]) -> None:
+        """Change some settings of the drawing, {name: value}."""
+        self.settings = replace(self.settings, **values)
+        self._scene.change(self.settings)
 
     def close(self) -> Left | None:
         """Give back the recording; what was shown is returned, for when the client comes again."""
-        if self._opened is None:
+        if self.opened is None:
             return None
-        left = Left(self._opened.entry.label, self._frame, self._parameters)
-        self._library.release(self._opened.entry)
-        self._opened = None
+        left = Left(self.opened.entry.label, self.frame, self.parameters)
+        self._library.release(self.opened.entry)
+        self.opened = None
         return left
+
+    def _shown(self, opened: Opened) -> Shown:
+        return Shown(
+            opened=opened,
+            frame=self.frame,
+            parameters=self.parameters,
+            settings=self.settings,
+            pair=self._pair,
+            playing=self._clock.playing,
+            seeking=self._mailbox.waits(Seek),
+        )
 
     def _draw_pair(self, opened: Opened, frame: int, parameters: Parameters) -> None:
         problem: Exception | None = None
+        self._pair = None
         try:
             pair = self._estimates.estimated(opened, frame, parameters)
         except Exception as error:
             # The clouds are shown even where the estimator fails on them.
             problem, pair = error, self._estimates.pair(opened, frame, parameters)
-        with self._client.atomic():
+        with self.client.atomic():
             self._scene.show(pair)
             if self._drawn is None or self._drawn[0] is not opened:
                 self._scene.place_camera(pair)
-        self._page.status.show(pair, parameters, simulated=opened.recording.simulated)
+        self._pair = pair
         self._drawn = (opened, frame, parameters)
         if problem is not None:
             raise problem
 
-    def _open(self, label: str) -> None:
-        # Only what the server listed is ever opened, whatever a browser sends.
-        entry = self._entries.get(label)
-        if entry is None or (self._opened is not None and self._opened.entry == entry):
-            return
-        try:
-            opened = self._library.open(entry)
-        except Exception:
-            self._page.recordings.show(self._opened)
-            raise
-        before, self._opened = self._opened, opened
-        if before is not None:
-            self._library.release(before.entry)
-        recording = opened.recording
-        self._clock = PlaybackClock(recording.stamps)
-        self._frame = opening_frame(recording, self._parameters.n)
-        with self._client.atomic():
-            self._scene.open(recording)
-        self._page.open(opened)
-
-    def _change_parameters(self, values: dict[str, Any]) -> None:
-        try:
-            self._parameters = replace(self._parameters, **values)
-        except ParameterError as error:
-            self._page.parameters.refuse(values, str(error))
-        else:
-            self._page.parameters.accept(self._parameters)
-
-    def _seek(self, frame: int) -> None:
-        if self._opened is None:
-            return
-        self._frame = min(max(frame, 0), len(self._opened.recording) - 1)
-        if self._clock.playing:
-            self._clock.play(self._frame, time.monotonic())
-
-    def _toggle(self, times: int) -> None:
-        if self._opened is None or times % 2 == 0:
-            return
-        if self._clock.playing:
-            self._clock.pause()
-        else:
-            at_end = self._frame == len(self._opened.recording) - 1
-            self._clock.play(0 if at_end else self._frame, time.monotonic())
-
     def _follow_clock(self) -> None:
         if self._clock.playing:
             now = time.monotonic()
-            self._frame = self._clock.frame(now)
+            self.frame = self._clock.frame(now)
             if self._clock.at_end(now):
                 self._clock.pause()
 

@@ -4,7 +4,7 @@ import re
 import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -189,6 +189,12 @@ def load_robot(source: str | Path | None = None) -> Robot:
             raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
         except UnicodeDecodeError as error:
             raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
+    return _robot(text, where, folder)
+
+
+@lru_cache(maxsize=16)
+def _robot(text: str, where: str, folder: Path | None) -> Robot:
+    # Recordings of the same robot share it, and with it the meshes that are loaded once.
     _check_is_urdf(where, text)
     try:
         urdf = yourdfpy.URDF.load(

@@ -1,14 +1,20 @@
 """The estimator's parameters: sliders for the paper's four, the others folded away."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import viser
 
-from app.wishes import ChangeParameters, ResetParameters, SaveParameters
+from app.mailbox import Wish
+from app.panel import Desk, Panel
+from app.parameter_files import to_text
+from app.wishes import ChangeParameters, LatestWins, ResetParameters
 from estimator import PARAMETER_INFO, Parameters, method_names
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
 
 _UNSET = 0
 """What stands in a number field for a parameter that is unset."""
@@ -17,21 +23,21 @@ _DEFAULTS: dict[str, Any] = {field.name: field.default for field in fields(Param
 _OPTIONAL = {name for name, default in _DEFAULTS.items() if default is None}
 
 
-class ParametersPanel:
-    """Change parameters; what is out of range is refused in words.
+@dataclass(frozen=True)
+class SaveParameters(LatestWins):
+    """Save the parameters as a file that the command line takes."""
 
-    Args:
-        gui: of the client.
-        parameters: to begin with.
-        post: takes wishes.
-    """
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Send the file to the browser."""
+        content = to_text(workbench.parameters).encode()
+        workbench.client.send_file_download("parameters.json", content, save_immediately=True)
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        parameters: Parameters,
-        post: Callable[[ChangeParameters | ResetParameters | SaveParameters], None],
-    ) -> None:
+
+class ParametersPanel(Panel):
+    """Change parameters; what is out of range is refused in words."""
+
+    def __init__(self, desk: Desk) -> None:
+        gui, parameters, post = desk.client.gui, desk.parameters, desk.post
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()
         with gui.add_folder("Parameters"):
@@ -62,7 +68,7 @@ class ParametersPanel:
         async def _(_: viser.GuiEvent) -> None:
             post(ResetParameters())
 
-    def show(self, parameters: Parameters) -> None:
+    def replace(self, parameters: Parameters) -> None:
         """Show these parameters, and that nothing is refused."""
         self._refused = set(self._controls)
         self.accept(parameters)
@@ -87,7 +93,7 @@ class ParametersPanel:
         )
         self._refusal.visible = True
 
-    def _connect(self, name: str, post: Callable[[ChangeParameters], None]) -> None:
+    def _connect(self, name: str, post: Callable[[Wish], None]) -> None:
         # Coroutines run at once, before anything can change a control's value again.
         @self._controls[name].on_update
         async def _(event: viser.GuiEvent) -> None:

@@ -5,20 +5,19 @@ from collections.abc import Callable
 import viser
 from viser import Icon
 
+from app.library import Opened
+from app.mailbox import Wish
+from app.panel import Desk, Panel, Shown
 from app.wishes import Seek, Step, TogglePlay
 
 _STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
 
 
-class PlaybackPanel:
-    """Scrub and play.
+class PlaybackPanel(Panel):
+    """Scrub and play."""
 
-    Args:
-        gui: of the client.
-        post: takes wishes.
-    """
-
-    def __init__(self, gui: viser.GuiApi, post: Callable[[Seek | Step | TogglePlay], None]) -> None:
+    def __init__(self, desk: Desk) -> None:
+        gui, post = desk.client.gui, desk.post
         with gui.add_folder("Playback"):
             self._slider = gui.add_slider(
                 "Frame", min=0, max=1, step=1, initial_value=0, hint="The frame k that is shown."
@@ -45,33 +44,25 @@ class PlaybackPanel:
 
         _add_keys(gui, post)
 
-    def open(self, frames: int) -> None:
-        """Prepare for a recording of this many frames."""
-        self._slider.max = max(frames - 1, 0)
+    def open(self, opened: Opened) -> None:
+        """Prepare for a recording's frames."""
+        self._slider.max = max(len(opened.recording) - 1, 0)
 
-    def show(
-        self, frame: int, frames: int, seconds: float, *, playing: bool, seeking: bool
-    ) -> None:
-        """Show where playback is.
-
-        Args:
-            frame: that is shown.
-            frames: of the recording.
-            seconds: since its first frame.
-            playing: whether time goes on.
-            seeking: whether a person is moving the slider on, which is then left to them.
-        """
-        if not seeking:
-            self._slider.value = frame
+    def show(self, shown: Shown) -> None:
+        """Show where playback is."""
+        stamps = shown.opened.recording.stamps
+        if not shown.seeking:
+            self._slider.value = shown.frame
         self._time.content = (
             '<div style="font-size: 0.75rem; padding: 0 1em; opacity: 0.75">'
-            f"Frame {frame} of {frames - 1}, at {seconds:.2f} s</div>"
+            f"Frame {shown.frame} of {len(stamps) - 1}, "
+            f"at {stamps[shown.frame] - stamps[0]:.2f} s</div>"
         )
-        self._play.label = "Pause" if playing else "Play"
-        self._play.icon = Icon.PLAYER_PAUSE if playing else Icon.PLAYER_PLAY
+        self._play.label = "Pause" if shown.playing else "Play"
+        self._play.icon = Icon.PLAYER_PAUSE if shown.playing else Icon.PLAYER_PLAY
 
 
-def _add_keys(gui: viser.GuiApi, post: Callable[[Seek | Step | TogglePlay], None]) -> None:
+def _add_keys(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
     # Arrow keys are left to the sliders, which they move while one has the focus.
     gui.add_command("Play or pause", hotkey="space").on_trigger(lambda _: post(TogglePlay()))
     gui.add_command("One frame back", hotkey="J").on_trigger(lambda _: post(Step(-1)))

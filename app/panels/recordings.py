@@ -1,44 +1,37 @@
 """The list of recordings, and what is known of the one that is open."""
 
-from collections.abc import Callable, Sequence
 from html import escape
 
 import viser
 
-from app.library import Entry, Opened
+from app.library import Opened
+from app.panel import Desk, Panel, Shown
 from app.wishes import OpenRecording
 
 
-class RecordingsPanel:
-    """Choose a recording.
+class RecordingsPanel(Panel):
+    """Choose a recording."""
 
-    Args:
-        gui: of the client.
-        entries: what can be chosen, at least one.
-        post: takes wishes.
-    """
-
-    def __init__(
-        self, gui: viser.GuiApi, entries: Sequence[Entry], post: Callable[[OpenRecording], None]
-    ) -> None:
-        labels = tuple(entry.label for entry in entries)
+    def __init__(self, desk: Desk) -> None:
+        gui, post = desk.client.gui, desk.post
+        labels = tuple(entry.label for entry in desk.entries)
         self._list = gui.add_dropdown(
             "Recording", labels, hint="The recordings of the opened files and folders."
         )
-        self._about = gui.add_html("")
+        self._about = gui.add_html(_line("No recording is open."))
 
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
                 post(OpenRecording(self._list.value))
 
-    def show(self, opened: Opened | None) -> None:
-        """Show what is open, None for nothing."""
-        if opened is None:
-            self._about.content = _line("No recording is open.")
-            return
-        self._list.value = opened.entry.label
+    def open(self, opened: Opened) -> None:
+        """Say what is open."""
         self._about.content = "".join(_line(escape(text)) for text in describe(opened))
+
+    def show(self, shown: Shown) -> None:
+        """Choose what is open, also after a recording that could not be opened."""
+        self._list.value = shown.opened.entry.label
 
 
 def describe(opened: Opened) -> list[str]:

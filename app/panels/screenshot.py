@@ -2,7 +2,8 @@
 
 import io
 import re
-from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import viser
@@ -10,28 +11,39 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from app.errors import InputError
-from app.wishes import TakeScreenshot
+from app.panel import Desk, Panel
+from app.wishes import LatestWins
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
 
 _TIMEOUT = 20.0  # seconds; a tab in the background never renders
 
 
-class ScreenshotPanel:
-    """A button that saves what the scene shows.
+@dataclass(frozen=True)
+class TakeScreenshot(LatestWins):
+    """Save what the page shows as a PNG file."""
 
-    Args:
-        client: whose scene it is.
-        post: takes wishes.
-    """
+    panel: "ScreenshotPanel"
 
-    def __init__(self, client: viser.ClientHandle, post: Callable[[TakeScreenshot], None]) -> None:
-        self._client = client
-        button = client.gui.add_button(
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Take it, where there is something to take."""
+        if workbench.opened is not None:
+            self.panel.take(workbench.opened.recording.name, workbench.frame)
+
+
+class ScreenshotPanel(Panel):
+    """A button that saves what the scene shows."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._client = desk.client
+        button = self._client.gui.add_button(
             "Save screenshot", icon=viser.Icon.CAMERA, hint="PNG of the scene"
         )
 
         @button.on_click
         def _(_: viser.GuiEvent) -> None:
-            post(TakeScreenshot())
+            desk.post(TakeScreenshot(self))
 
     def take(self, recording: str, frame: int) -> None:
         """Render, and send the file to the browser; it is named after recording and frame.

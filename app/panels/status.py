@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from html import escape
 
 import numpy as np
-import viser
 
 from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
 from app.estimates import Pair
+from app.panel import Desk, Panel, Shown
 from estimator import Label, Parameters
 
 
@@ -20,29 +20,35 @@ class Fact:
     colour: Colour | None = None
 
 
-class StatusPanel:
-    """Says how many points, clusters and labels there are, how long it took, and how good it is.
+class StatusPanel(Panel):
+    """Says how many points, clusters and labels there are, how long it took, and how good it is."""
 
-    Args:
-        gui: of the client.
-    """
-
-    def __init__(self, gui: viser.GuiApi) -> None:
+    def __init__(self, desk: Desk) -> None:
+        gui = desk.client.gui
+        self._said: Pair | None = None
         with gui.add_folder("Status"):
             self._content = gui.add_html("")
 
-    def show(self, pair: Pair, parameters: Parameters, *, simulated: bool) -> None:
-        """Show a pair."""
-        lines = [f"<div>{escape(text)}</div>" for text in notes(pair, parameters)]
+    def show(self, shown: Shown) -> None:
+        """Say what is to be said of the pair."""
+        if shown.pair is None:
+            self._said = None
+            self._content.content = _framed("This frame cannot be shown.")
+            return
+        if shown.pair is self._said:
+            return
+        pair = self._said = shown.pair
+        lines = [f"<div>{escape(text)}</div>" for text in notes(pair, shown.parameters)]
         said = facts(pair)
-        if simulated:
+        if shown.opened.recording.simulated:
             said.append(Fact("Data", "simulated"))
         cells = "".join(_cell(fact) for fact in said)
-        self._content.content = (
-            '<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.5">'
-            f'<div style="display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em">{cells}'
-            f"</div>{''.join(lines)}</div>"
-        )
+        grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
+        self._content.content = _framed(f'<div style="{grid}">{cells}</div>{"".join(lines)}')
+
+
+def _framed(content: str) -> str:
+    return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.5">{content}</div>'
 
 
 def facts(pair: Pair) -> list[Fact]:

@@ -1,25 +1,17 @@
 """How things are drawn: arrow scale, point size, layers."""
 
-from collections.abc import Callable
-
 import viser
 
-from app.scene.scene import LAYERS, ViewSettings
+from app.panel import Desk, Panel
+from app.scene.settings import LAYERS
 from app.wishes import ChangeView
 
 
-class ViewPanel:
-    """Change what is drawn; nothing of it makes the estimator run.
+class ViewPanel(Panel):
+    """Change what is drawn; nothing of it makes the estimator run."""
 
-    Args:
-        gui: of the client.
-        settings: to begin with.
-        post: takes wishes.
-    """
-
-    def __init__(
-        self, gui: viser.GuiApi, settings: ViewSettings, post: Callable[[ChangeView], None]
-    ) -> None:
+    def __init__(self, desk: Desk) -> None:
+        gui, settings, post = desk.client.gui, desk.settings, desk.post
         with gui.add_folder("View", expand_by_default=False):
             arrow_scale = gui.add_slider(
                 "Arrow scale",

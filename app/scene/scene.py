@@ -1,7 +1,5 @@
 """What one browser client sees: robot, sensors, clouds and flow of one frame."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -11,11 +9,12 @@ from app.scene.clouds_view import FLOW_NODE, SOURCE_NODE, TARGET_NODE, TRUTH_NOD
 from app.scene.first_view import first_view
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
+from app.scene.settings import ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
 from recordings import Recording
 
-LAYERS = {
+_NODES = {
     "Robot": (ROOT,),
     "Sensors": (SENSORS,),
     "Fields of view": (FRUSTUMS,),
@@ -28,21 +27,6 @@ LAYERS = {
 """{layer: the nodes that it switches}."""
 
 _ABOVE = 0.12  # metres from what moves to the truth's arrow
-
-
-@dataclass(frozen=True)
-class ViewSettings:
-    """How things are drawn, whatever was estimated.
-
-    Attributes:
-        arrow_scale: seconds; an arrow is as long as the way that is gone in them.
-        point_size: radius of a point, metres.
-        layers: those that are shown.
-    """
-
-    arrow_scale: float = 0.5
-    point_size: float = 0.003
-    layers: frozenset[str] = frozenset(LAYERS)
 
 
 class Scene:
@@ -121,7 +105,7 @@ class Scene:
         self._clouds.show_truth(*_truth_arrow(pair, self._turn[2]), seconds)
 
     def _show_layers(self) -> None:
-        for layer, names in LAYERS.items():
+        for layer, names in _NODES.items():
             for name in names:
                 if node := self._client.scene.get_handle_by_name(name):
                     node.visible = layer in self._settings.layers

@@ -4,6 +4,7 @@ from app.estimates import Estimates
 from app.panels.status import StatusPanel, facts, notes
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
+from tests.app.fake_session import desk, shown
 
 
 def said(pair):
@@ -53,9 +54,17 @@ def test_an_object_at_rest_is_said():
 
 
 def test_simulated_data_are_called_so(client):
-    panel = StatusPanel(client.gui)
-    pair = Estimates().estimated(fake_opened(), 20, Parameters())
-    panel.show(pair, Parameters(), simulated=True)
-    assert "simulated" in client.text()
-    panel.show(pair, Parameters(), simulated=False)
-    assert "simulated" not in client.text()
+    panel = StatusPanel(desk(client))
+    fake = fake_recording()
+    for simulated in (True, False):
+        fake.simulated = simulated
+        panel.show(shown(fake_opened(fake)))
+        assert ("simulated" in client.text()) == simulated
+
+
+def test_a_frame_that_cannot_be_shown_is_said_and_not_the_last_one_again(client):
+    panel = StatusPanel(desk(client))
+    panel.show(shown(fake_opened()))
+    panel.show(replace(shown(fake_opened()), pair=None))
+    assert "This frame cannot be shown." in client.text()
+    assert "Moving" not in client.text()

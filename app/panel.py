@@ -1,0 +1,70 @@
+"""What a panel of the page is: it posts wishes, and shows what the session shows."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import viser
+
+from app.estimates import Pair
+from app.library import Entry, Opened
+from app.mailbox import Wish
+from app.scene.settings import ViewSettings
+from estimator import Parameters
+
+
+@dataclass(frozen=True)
+class Desk:
+    """What a panel is made with.
+
+    Attributes:
+        client: the browser client.
+        entries: recordings to choose from, at least one.
+        parameters: to begin with.
+        settings: to begin with.
+        post: takes wishes, from any thread.
+    """
+
+    client: viser.ClientHandle
+    entries: Sequence[Entry]
+    parameters: Parameters
+    settings: ViewSettings
+    post: Callable[[Wish], None]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a session shows at one moment.
+
+    Attributes:
+        opened: the recording.
+        frame: k.
+        parameters: of the estimate.
+        settings: of the drawing.
+        pair: of the frame, None where it could not be drawn.
+        playing: whether time goes on.
+        seeking: whether a person is moving the frame slider on, which is then left to them.
+    """
+
+    opened: Opened
+    frame: int
+    parameters: Parameters
+    settings: ViewSettings
+    pair: Pair | None
+    playing: bool
+    seeking: bool
+
+
+class Panel:
+    """A part of the page. Its methods are called by the session's thread alone.
+
+    A panel adds its controls when it is made, and posts wishes from their callbacks.
+    """
+
+    def __init__(self, desk: Desk) -> None:
+        del desk
+
+    def open(self, opened: Opened) -> None:
+        """Prepare for a recording that was opened."""
+
+    def show(self, shown: Shown) -> None:
+        """Show what the session shows; called whenever that may have changed."""

@@ -1,0 +1,27 @@
+"""What panels are made with, and what they are shown, without a session."""
+
+from typing import Any
+
+from app.estimates import Estimates
+from app.library import Opened
+from app.panel import Desk, Shown
+from app.scene.settings import ViewSettings
+from estimator import Parameters
+from tests.app.fake_recordings import fake_opened
+
+
+def desk(client: Any, post=lambda wish: None) -> Desk:
+    return Desk(client, [fake_opened().entry], Parameters(), ViewSettings(), post)
+
+
+def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None) -> Shown:
+    parameters = parameters or Parameters()
+    return Shown(
+        opened=opened,
+        frame=frame,
+        parameters=parameters,
+        settings=ViewSettings(),
+        pair=Estimates().estimated(opened, frame, parameters),
+        playing=False,
+        seeking=False,
+    )
