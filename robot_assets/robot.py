@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,12 +14,10 @@ import trimesh
 import yourdfpy
 from numpy.typing import NDArray
 
+from robot_assets.errors import RobotError
+from robot_assets.meshes import link_meshes, panda_urdf_path, resolve_mesh
+
 Transform = NDArray[np.float64]
-_EXAMPLE_ROBOT_DATA = "package://example-robot-data/"
-
-
-class RobotError(Exception):
-    """A robot description that cannot be used."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +121,7 @@ class Robot:
 
         Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
         """
-        return self._meshes("visuals")
+        return link_meshes(self._urdf, "visuals")
 
     @cached_property
     def collision_meshes(self) -> dict[str, trimesh.Trimesh]:
@@ -132,7 +129,7 @@ class Robot:
 
         Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
         """
-        return self._meshes("collisions")
+        return link_meshes(self._urdf, "collisions")
 
     @cached_property
     def missing_meshes(self) -> tuple[str, ...]:
@@ -157,15 +154,6 @@ class Robot:
     def _rest(self, joint: str) -> float:
         low, high = self.joint_limits.get(joint, (-np.inf, np.inf))
         return float(np.clip(0.0, low, high))
-
-    def _meshes(self, kind: str) -> dict[str, trimesh.Trimesh]:
-        meshes: dict[str, trimesh.Trimesh] = {}
-        for name, link in self._urdf.link_map.items():
-            parts = [_part_mesh(part, self._urdf) for part in getattr(link, kind)]
-            parts = [part for part in parts if part is not None]
-            if parts:
-                meshes[str(name)] = trimesh.util.concatenate(parts)  # type: ignore[assignment]
-        return meshes
 
 
 def load_robot(source: str | Path | None = None) -> Robot:
@@ -222,79 +210,5 @@ def _check_is_urdf(where: str, text: str) -> None:
         raise RobotError(f"{where} has no links.")
 
 
-def panda_urdf_path() -> Path:
-    """Where the example-robot-data package keeps the Panda's URDF."""
-    return _example_robot_data() / "robots" / "panda_description" / "urdf" / "panda.urdf"
-
-
-def resolve_mesh(name: str, folder: Path | None = None) -> str:
-    """Turn a mesh's name in a URDF into a path; a name that leads nowhere is returned as it is."""
-    if name.startswith(_EXAMPLE_ROBOT_DATA):
-        return str(_example_robot_data() / name.removeprefix(_EXAMPLE_ROBOT_DATA))
-    if name.startswith("package://") and folder is not None:
-        # A package's meshes lie beside its urdf folder: look for them from there upwards.
-        inside = name.removeprefix("package://")
-        below = inside.split("/", 1)[-1]
-        for parent in [folder, *folder.parents]:
-            for candidate in (parent / inside, parent / below):
-                if candidate.is_file():
-                    return str(candidate)
-    if folder is not None and (folder / name.removeprefix("file://")).is_file():
-        return str(folder / name.removeprefix("file://"))
-    return name.removeprefix("file://")
-
-
-def _example_robot_data() -> Path:
-    # The package is a bare data wheel: it has no module to ask, only this place in site-packages.
-    from importlib.metadata import distribution
-
-    share = distribution("example-robot-data").locate_file("cmeel.prefix/share/example-robot-data")
-    return Path(str(share))
-
-
 def _ends_with(recorded: str, core: str) -> bool:
     return recorded == core or recorded.endswith((f"_{core}", f"/{core}"))
-
-
-def _part_mesh(part: Any, urdf: yourdfpy.URDF) -> trimesh.Trimesh | None:  # noqa: ANN401 (untyped)
-    geometry = part.geometry
-    if geometry.box is not None:
-        mesh = trimesh.creation.box(extents=geometry.box.size)
-    elif geometry.cylinder is not None:
-        mesh = trimesh.creation.cylinder(
-            radius=geometry.cylinder.radius, height=geometry.cylinder.length
-        )
-    elif geometry.sphere is not None:
-        mesh = trimesh.creation.icosphere(radius=geometry.sphere.radius)
-    else:
-        path = Path(urdf._filename_handler(geometry.mesh.filename))
-        if not path.is_file():
-            return None
-        mesh = _read_mesh(path)
-        if geometry.mesh.scale is not None:
-            mesh.apply_scale(geometry.mesh.scale)
-    if part.origin is not None:
-        mesh.apply_transform(part.origin)
-    return mesh
-
-
-def _read_mesh(path: Path) -> trimesh.Trimesh:
-    try:
-        mesh = _coloured(trimesh.load(path))
-    except Exception as error:  # trimesh raises whatever the reader of that format meets
-        raise RobotError(f"The mesh {path} cannot be read: {error}.") from error
-    if len(mesh.faces) == 0:
-        raise RobotError(f"The mesh {path} has no triangles.")
-    return mesh
-
-
-def _coloured(loaded: Any) -> trimesh.Trimesh:  # noqa: ANN401 (trimesh.load gives a mesh or a scene)
-    """Flatten a loaded file into one mesh whose materials have become vertex colours."""
-    parts: list[trimesh.Trimesh] = []
-    for mesh in [loaded] if isinstance(loaded, trimesh.Trimesh) else loaded.dump():
-        material: Any = getattr(mesh.visual, "material", mesh.visual)
-        colours = np.tile(material.main_color, (len(mesh.vertices), 1))
-        parts.append(
-            trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=colours, process=False)
-        )
-    return trimesh.util.concatenate(parts)  # type: ignore[return-value]
