@@ -1,7 +1,5 @@
 """The web server: one session for each browser client."""
 
-import contextlib
-import io
 import socket
 import warnings
 
@@ -9,15 +7,11 @@ import viser
 
 from app.colours import BRAND
 from app.errors import InputError
+from app.guarded_server import GuardedServer
 from app.page import TITLE
 from app.session import Session, Shared
 
 _PANEL_WIDTH = 330  # pixels
-
-
-class _Server(viser.ViserServer):
-    def request_share_url(self, verbose: bool = True) -> None:
-        """Refuse: any page could ask for it, and it would make this port public."""
 
 
 class Server:
@@ -37,9 +31,7 @@ class Server:
         # A client may leave while its session is drawing: nobody misses what is not delivered.
         warnings.filterwarnings("ignore", message=r"Queued a .* on a closed connection")
         self._sessions: dict[int, Session] = {}
-        # viser greets and takes its leave on the terminal; what people need, `view` tells them.
-        with contextlib.redirect_stdout(io.StringIO()):
-            self._server = _Server(host=host, port=port, verbose=False, label=TITLE)
+        self._server = GuardedServer(host, port, label=TITLE)
         self.host, self.port = host, self._server.get_port()
         self._server.gui.configure_theme(
             show_logo=False, show_share_button=False, brand_color=BRAND
@@ -71,8 +63,7 @@ class Server:
             session.close()
         for session in sessions:
             session.join(timeout=5.0)
-        with contextlib.redirect_stdout(io.StringIO()):
-            self._server.stop()
+        self._server.stop()
 
 
 def _check_free(host: str, port: int) -> None:

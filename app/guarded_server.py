@@ -1,0 +1,104 @@
+"""viser's server, quiet on the terminal, and refusing what other web pages send."""
+
+import contextlib
+import functools
+import http
+import io
+import ipaddress
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+from urllib.parse import urlsplit
+
+import viser
+import websockets.asyncio.server as websocket_server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+
+_Answer = Callable[[ServerConnection, Request], Response | None]
+
+_starting = threading.Lock()
+
+
+class GuardedServer(viser.ViserServer):
+    """A server that answers its own pages and programs, and no page of anybody else.
+
+    Args:
+        host: address to listen at.
+        port: port to listen at, 0 for any that is free.
+        label: title of the panel.
+    """
+
+    def __init__(self, host: str, port: int, label: str | None = None) -> None:
+        with _starting, _quiet(), _refusing_foreign_pages(host):
+            super().__init__(host=host, port=port, label=label, verbose=False)
+
+    def stop(self) -> None:
+        """Close all connections and free the port."""
+        with _starting, _quiet():
+            super().stop()
+
+    def request_share_url(self, verbose: bool = True) -> None:
+        """Refuse: any page could ask for it, and it would make this port public."""
+
+
+def is_foreign(origin: str, addressed: str | None, host: str) -> bool:
+    """Whether a page of this origin is none of this server's.
+
+    A page is this server's where it was loaded from the address at which it connects now. Names
+    that others can point at this machine, to make its pages look like ours, are no such address.
+
+    Args:
+        origin: of the page, such as http://127.0.0.1:8080.
+        addressed: the request's Host header, such as 127.0.0.1:8080.
+        host: address that the server listens at.
+    """
+    parts = urlsplit(origin)
+    if addressed is None or parts.netloc.lower() != addressed.lower():
+        return True
+    name = (parts.hostname or "").lower().rstrip(".")
+    own = socket.gethostname().lower()
+    return not (
+        name in {"localhost", host.lower(), own, f"{own}.local", socket.getfqdn().lower()}
+        or name.endswith(".localhost")
+        or _is_address(name)
+    )
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+@contextlib.contextmanager
+def _refusing_foreign_pages(host: str) -> Iterator[None]:
+    """Give the server that viser starts meanwhile a guard, for which viser has no argument."""
+    serve = websocket_server.serve
+
+    @functools.wraps(serve)
+    def guarded(*arguments: Any, process_request: _Answer, **options: Any) -> Any:  # noqa: ANN401
+        def answer(connection: ServerConnection, request: Request) -> Response | None:
+            headers = request.headers
+            hosts = headers.get_all("Host")
+            addressed = hosts[0] if len(hosts) == 1 else None
+            if any(is_foreign(origin, addressed, host) for origin in headers.get_all("Origin")):
+                said = "This server answers the pages that it sent itself, and no others.\n"
+                return connection.respond(http.HTTPStatus.FORBIDDEN, said)
+            return process_request(connection, request)
+
+        return serve(*arguments, process_request=answer, **options)
+
+    setattr(websocket_server, "serve", guarded)  # noqa: B010 (a class is not assignable to)
+    try:
+        yield
+    finally:
+        setattr(websocket_server, "serve", serve)  # noqa: B010
+
+
+def _quiet() -> contextlib.AbstractContextManager[Any]:
+    # viser greets and takes its leave on the terminal; what people need, the commands tell them.
+    return contextlib.redirect_stdout(io.StringIO())
