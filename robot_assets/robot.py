@@ -2,11 +2,12 @@
 
 import re
 import threading
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -81,6 +82,20 @@ class Robot:
             ambiguous=tuple(n for n, names in candidates.items() if len(names) > 1),
         )
 
+    def links_placed_by(self, joints: Collection[str]) -> frozenset[str]:
+        """Links whose pose is known where these joints' positions are.
+
+        A link below a joint that turns by an unknown angle could be anywhere; one below a joint
+        that slides, such as a finger, is at most its short way off.
+        """
+        driver = {name: joint.mimic.joint if joint.mimic else name for name, joint in self._joints}
+        unknown = {
+            str(joint.child)
+            for name, joint in self._joints
+            if joint.type in ("revolute", "continuous") and driver[name] not in joints
+        }
+        return frozenset(link for link in self.links if unknown.isdisjoint(self._chain(link)))
+
     def outside_limits(self, positions: Mapping[str, float], tolerance: float = 1e-3) -> list[str]:
         """Say, in a sentence each, which joints are beyond their limits by over `tolerance`."""
         return [
@@ -141,6 +156,17 @@ class Robot:
             if (geometry := part.geometry).mesh is not None
             and not Path(self._urdf._filename_handler(geometry.mesh.filename)).is_file()
         )
+
+    @property
+    def _joints(self) -> list[tuple[str, Any]]:
+        return [(str(name), joint) for name, joint in self._urdf.joint_map.items()]
+
+    def _chain(self, link: str) -> list[str]:
+        """A link, its parent and so on, down to the base."""
+        chain = [link]
+        while chain[-1] in self.parents:
+            chain.append(self.parents[chain[-1]])
+        return chain
 
     @cached_property
     def _prefix(self) -> str:

@@ -41,14 +41,16 @@ class SelfFilter:
             ranges: (S, R, C) metres, NaN where invalid.
             directions: (S, R, C, 3), range times direction is the point in the optical frame.
             T_base_sensor: (S, 4, 4).
-            link_poses: {link: T_base_link}.
+            link_poses: {link: T_base_link}; a link without a pose is not cast against.
 
         Returns:
             (S, R, C), False where invalid.
         """
         shows = np.zeros(ranges.shape, dtype=bool)
         posed = [
-            mesh.copy().apply_transform(link_poses[link]) for link, mesh in self._meshes.items()
+            mesh.copy().apply_transform(link_poses[link])
+            for link, mesh in self._meshes.items()
+            if link in link_poses
         ]
         if not posed:
             return shows
