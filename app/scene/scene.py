@@ -1,10 +1,10 @@
-"""What one browser client sees: robot, sensors, clouds and flow of one frame."""
+"""What a person sees: robot, sensors, clouds and flow of one frame."""
 
 import numpy as np
-import viser
 from numpy.typing import NDArray
 
 from app.estimates import Pair
+from app.scene.canvas import Canvas
 from app.scene.clouds_view import FLOW_NODE, SOURCE_NODE, TARGET_NODE, TRUTH_NODE, CloudsView
 from app.scene.first_view import first_view
 from app.scene.robot_view import ROOT, RobotView
@@ -30,24 +30,24 @@ _ABOVE = 0.12  # metres from what moves to the truth's arrow
 
 
 class Scene:
-    """Draws on one client's scene. Everything is drawn by one thread.
+    """Draws on a canvas. Everything is drawn by one thread.
 
     Args:
-        client: the browser client.
+        canvas: a browser client, or what is exported without one.
         settings: to begin with.
     """
 
-    def __init__(self, client: viser.ClientHandle, settings: ViewSettings) -> None:
-        self._client = client
+    def __init__(self, canvas: Canvas, settings: ViewSettings) -> None:
+        self._canvas = canvas
         self._settings = settings
         self._robot: RobotView | None = None
         self._sensors: SensorsView | None = None
         self._shown: Pair | None = None
         self._turn = np.eye(3)
-        self._stage = Stage(client.scene)
+        self._stage = Stage(canvas.scene)
         for root in (ROOT, SENSORS, FRUSTUMS):
-            client.scene.add_frame(root, show_axes=False)
-        self._clouds = CloudsView(client.scene, settings.point_size)
+            canvas.scene.add_frame(root, show_axes=False)
+        self._clouds = CloudsView(canvas.scene, settings.point_size)
 
     def open(self, recording: Recording) -> None:
         """Prepare the scene for a recording; a robot that looks the same is kept."""
@@ -56,17 +56,17 @@ class Scene:
             self._robot.remove()
             self._robot = None
         if shape and not self._robot:
-            self._robot = RobotView(self._client.scene, shape)
+            self._robot = RobotView(self._canvas.scene, shape)
         if self._sensors:
             self._sensors.remove()
-        self._sensors = SensorsView(self._client.scene, recording.sensors)
+        self._sensors = SensorsView(self._canvas.scene, recording.sensors)
         self._turn = upright(recording.fixed_frame)
         self._stage.turn(self._turn)
         self._shown = None
 
     def place_camera(self, pair: Pair) -> None:
         """Put the camera where the pair and its sensors are seen well."""
-        camera = self._client.camera
+        camera = self._canvas.camera
         poses = pair.target.T_fixed_sensor
         view = first_view(pair.target.points, poses, self._turn, camera.fov)
         camera.position = view.position
@@ -107,7 +107,7 @@ class Scene:
     def _show_layers(self) -> None:
         for layer, names in _NODES.items():
             for name in names:
-                if node := self._client.scene.get_handle_by_name(name):
+                if node := self._canvas.scene.get_handle_by_name(name):
                     node.visible = layer in self._settings.layers
 
 
