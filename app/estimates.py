@@ -8,8 +8,10 @@ from numpy.typing import NDArray
 
 from app.library import Opened
 from app.memory import Memory
+from app.timeline import Outline, Timeline
 from estimator import (
     MOVING_SPEED,
+    Label,
     Metrics,
     Parameters,
     PooledErrors,
@@ -62,6 +64,11 @@ class Pair:
         return moving if moving.any() else np.ones(size, dtype=bool)
 
     @property
+    def anything_moves(self) -> bool:
+        """Whether the estimate found something that moves."""
+        return self.flow is not None and bool((self.flow.label == Label.MOVING).any())
+
+    @property
     def errors(self) -> Metrics | None:
         """The errors of this pair; None unless it has a flow and its object moves."""
         if self.flow is None or self.truth is None or self.object_velocity is None:
@@ -90,6 +97,7 @@ class Estimates:
     def __init__(self, clouds: int = 400, flows: int = 400) -> None:
         self._clouds: Memory[tuple, Cloud] = Memory(clouds)
         self._pairs: Memory[tuple, Pair] = Memory(flows)
+        self._outlines: Memory[tuple, Outline] = Memory(16)
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The pair (k-n, k) without an estimate, its clouds taken from memory where they are.
@@ -118,6 +126,15 @@ class Estimates:
         """
         key = (opened.key, k, parameters)
         return self._pairs.get(key, lambda: _estimate(self.pair(opened, k, parameters), parameters))
+
+    def timeline(self, opened: Opened, parameters: Parameters) -> Timeline:
+        """The recording at a glance; where there is no truth, what the known estimates say."""
+        outline = self._outlines.get(opened.key, lambda: Outline(opened.recording))
+        known = [self._pairs.known((opened.key, k, parameters)) for k in range(outline.count)]
+        return outline.with_estimates(
+            [pair is not None and len(pair.target.points) == 0 for pair in known],
+            [pair is not None and pair.anything_moves for pair in known],
+        )
 
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)

@@ -30,12 +30,13 @@ def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
     """The pairs (k-n, k) at both of whose frames the object moves."""
-    moves = [_moves(recording, k) for k in range(len(recording))]
+    moving = [moves(recording, k) for k in range(len(recording))]
     for k in range(n, len(recording)):
-        if moves[k - n] and moves[k]:
+        if moving[k - n] and moving[k]:
             yield k - n, k
 
 
-def _moves(recording: Recording, k: int) -> bool:
+def moves(recording: Recording, k: int) -> bool:
+    """Whether the truth says that the object moves at frame `k`."""
     velocity = recording.truth(k)
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED

@@ -26,6 +26,12 @@ class Memory(Generic[K, V]):
     def __len__(self) -> int:
         return len(self._slots)
 
+    def known(self, key: K) -> V | None:
+        """The value of `key` where it is remembered; nothing is made, and nobody is waited for."""
+        with self._lock:
+            slot = self._slots.get(key)
+        return slot.value if slot else None
+
     def get(self, key: K, make: Callable[[], V]) -> V:
         """The value of `key`; `make` makes it where it is not remembered, and may raise."""
         with self._lock:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import viser
 
 from app.library import Opened
+from app.page_script import set_up_keys
 from app.panel import Desk, Panel, Shown
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
@@ -25,6 +26,7 @@ class Page:
 
     def __init__(self, desk: Desk) -> None:
         self._client = desk.client
+        set_up_keys(desk.client)
         self._panels: list[Panel] = [
             RecordingsPanel(desk),
             PlaybackPanel(desk),

@@ -8,7 +8,9 @@ import viser
 from app.estimates import Pair
 from app.library import Entry, Opened
 from app.mailbox import Wish
+from app.playback_clock import Playback
 from app.scene.settings import ViewSettings
+from app.timeline import Timeline
 from estimator import Parameters
 
 
@@ -42,6 +44,8 @@ class Shown:
         settings: of the drawing.
         pair: of the frame, None where it could not be drawn.
         playing: whether time goes on.
+        playback: how it is played.
+        timeline: of the recording, as far as it is known.
         seeking: whether a person is moving the frame slider on, which is then left to them.
     """
 
@@ -51,6 +55,8 @@ class Shown:
     settings: ViewSettings
     pair: Pair | None
     playing: bool
+    playback: Playback
+    timeline: Timeline
     seeking: bool
 
 

@@ -7,19 +7,23 @@ from typing import Any
 
 import viser
 
+from app.errors import InputError
 from app.estimates import Estimates, Pair
 from app.evaluation import counting_pairs
 from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox
 from app.page import Page
 from app.panel import Desk, Shown
-from app.playback_clock import PlaybackClock
+from app.playback_clock import Playback, PlaybackClock
 from app.reloads import Left
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
+from app.timeline import Timeline, neighbour
 from app.wishes import OpenRecording, Seek
 from estimator import Parameters
 from recordings import Recording
+
+_OUTLOOK = 1.0  # seconds after which the timeline is looked through again
 
 
 class Workbench:
@@ -59,7 +63,13 @@ class Workbench:
         self._drawn: tuple[Opened, int, Parameters] | None = None
         self._scene = Scene(client, self.settings)
         self._pair: Pair | None = None
+        self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
         self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post))
+
+    @property
+    def playback(self) -> Playback:
+        """How the recording is played."""
+        return self._clock.playback
 
     def wait(self) -> float | None:
         """Seconds until a frame is due, None where none will be."""
@@ -89,7 +99,7 @@ class Workbench:
         if before is not None:
             self._library.release(before.entry)
         recording = opened.recording
-        self._clock = PlaybackClock(recording.stamps)
+        self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
         self.frame = opening_frame(recording, self.parameters.n)
         with self.client.atomic():
             self._scene.open(recording)
@@ -110,8 +120,29 @@ class Workbench:
         if self._clock.playing:
             self._clock.pause()
         else:
-            at_end = self.frame == len(self.opened.recording) - 1
-            self._clock.play(0 if at_end else self.frame, time.monotonic())
+            ends = (self.playback.last, len(self.opened.recording) - 1)
+            start = self.playback.first if self.frame in ends else self.frame
+            self._clock.play(start, time.monotonic())
+
+    def change_playback(self, values: dict[str, Any]) -> None:
+        """Play otherwise, {field of `Playback`: value}."""
+        self._clock.change(values, self.frame, time.monotonic())
+
+    def jump_to_motion(self, direction: int) -> None:
+        """Go to where the next (1) or the previous (-1) stretch with motion begins.
+
+        Raises:
+            InputError: there is none.
+        """
+        if self.opened is None:
+            return
+        timeline = self._estimates.timeline(self.opened, self.parameters)
+        frame = neighbour(timeline.moving, self.frame, direction)
+        if frame is None:
+            where = "after" if direction > 0 else "before"
+            known = "" if self.opened.recording.has_truth else " in the frames estimated so far"
+            raise InputError(f"Nothing begins to move {where} this frame{known}.")
+        self.seek(frame)
 
     def change_parameters(self, values: Mapping[str, Any]) -> None:
         """Change some parameters, {name: value}; ParameterError where one is out of range."""
@@ -144,6 +175,8 @@ class Workbench:
             settings=self.settings,
             pair=self._pair,
             playing=self._clock.playing,
+            playback=self.playback,
+            timeline=self._timeline(opened),
             seeking=self._mailbox.waits(Seek),
         )
 
@@ -166,10 +199,15 @@ class Workbench:
 
     def _follow_clock(self) -> None:
         if self._clock.playing:
-            now = time.monotonic()
-            self.frame = self._clock.frame(now)
-            if self._clock.at_end(now):
-                self._clock.pause()
+            self.frame = self._clock.advance(time.monotonic())
+
+    def _timeline(self, opened: Opened) -> Timeline:
+        """The timeline, looked through again once in a while: estimates come one by one."""
+        wanted, now = (opened, self.parameters), time.monotonic()
+        if self._outlined is None or self._outlined[0] != wanted or now > self._outlined[1]:
+            timeline = self._estimates.timeline(opened, self.parameters)
+            self._outlined = (wanted, now + _OUTLOOK, timeline)
+        return self._outlined[2]
 
 
 def opening_frame(recording: Recording, n: int) -> int:

@@ -1,16 +1,25 @@
-"""Which frame is shown: slider, play and pause, steps."""
+"""Which frame is shown: slider, timeline, play and pause, steps, speed, loop and range."""
 
-from collections.abc import Callable
+from typing import Any
 
 import viser
 from viser import Icon
 
 from app.library import Opened
-from app.mailbox import Wish
 from app.panel import Desk, Panel, Shown
+from app.panels.playback_wishes import (
+    STEPS,
+    ChangePlayback,
+    JumpToMotion,
+    add_commands,
+    speed_from,
+    speed_name,
+)
+from app.panels.timeline_strip import strip
+from app.playback_clock import SPEEDS, Playback
 from app.wishes import Seek, Step, TogglePlay
 
-_STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
+_JUMPS = {"Previous": -1, "Next": 1}
 
 
 class PlaybackPanel(Panel):
@@ -18,15 +27,38 @@ class PlaybackPanel(Panel):
 
     def __init__(self, desk: Desk) -> None:
         gui, post = desk.client.gui, desk.post
+        self._post = post
         with gui.add_folder("Playback"):
             self._slider = gui.add_slider(
                 "Frame", min=0, max=1, step=1, initial_value=0, hint="The frame k that is shown."
             )
+            self._strip = gui.add_html("")
             self._time = gui.add_html("")
             self._play = gui.add_button("Play", icon=Icon.PLAYER_PLAY, hint="Space")
             steps = gui.add_button_group(
-                "Step", tuple(_STEPS), hint="Frames; keys J and L go one back and one on."
+                "Step",
+                tuple(STEPS),
+                hint="Frames. Keys: J and L or the arrows, ten with Shift and an arrow; Home, End.",
             )
+            jumps = gui.add_button_group(
+                "Motion",
+                tuple(_JUMPS),
+                hint="To where something begins to move: by the truth, or by the estimates so far. "
+                "Keys: Shift+M and M.",
+            )
+            self._speed = gui.add_dropdown(
+                "Speed",
+                tuple(speed_name(speed) for speed in SPEEDS),
+                initial_value=speed_name(1.0),
+                hint="Of the recording's own. Keys: Shift+J slower, Shift+L faster.",
+            )
+            with gui.add_folder("Loop and range", expand_by_default=False):
+                self._loop = gui.add_checkbox(
+                    "Loop", False, hint="Play the range again and again. Key: R."
+                )
+                self._range = gui.add_multi_slider(
+                    "Range", min=0, max=1, step=1, initial_value=(0, 1), hint="Frames to play."
+                )
 
         # Coroutines run at once, before anything can change a control's value again.
         @self._slider.on_update
@@ -40,30 +72,55 @@ class PlaybackPanel(Panel):
 
         @steps.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(Step(_STEPS[steps.value]))
+            post(Step(STEPS[steps.value]))
 
-        _add_keys(gui, post)
+        @jumps.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(JumpToMotion(_JUMPS[jumps.value]))
+
+        @self._speed.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            self._change(event, speed=speed_from(self._speed.value))
+
+        @self._loop.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            self._change(event, loop=self._loop.value)
+
+        @self._range.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            first, last = (int(frame) for frame in self._range.value)
+            self._change(event, first=first, last=last)
+
+        add_commands(gui, post)
 
     def open(self, opened: Opened) -> None:
         """Prepare for a recording's frames."""
-        self._slider.max = max(len(opened.recording) - 1, 0)
+        last = max(len(opened.recording) - 1, 0)
+        self._slider.max = last
+        self._range.max = max(last, 1)
+        self._range.value = (0, max(last, 1))
 
     def show(self, shown: Shown) -> None:
         """Show where playback is."""
         stamps = shown.opened.recording.stamps
         if not shown.seeking:
             self._slider.value = shown.frame
+        time, end = stamps[shown.frame] - stamps[0], stamps[-1] - stamps[0]
         self._time.content = (
-            '<div style="font-size: 0.75rem; padding: 0 1em; opacity: 0.75">'
-            f"Frame {shown.frame} of {len(stamps) - 1}, "
-            f"at {stamps[shown.frame] - stamps[0]:.2f} s</div>"
+            '<div style="font-size: 0.75rem; padding: 0 1em 0.4em; opacity: 0.75;'
+            ' font-variant-numeric: tabular-nums">'
+            f"Frame {shown.frame} of {len(stamps) - 1}, at {time:.2f} s of {end:.2f} s</div>"
         )
         self._play.label = "Pause" if shown.playing else "Play"
         self._play.icon = Icon.PLAYER_PAUSE if shown.playing else Icon.PLAYER_PLAY
+        self._strip.content = strip(shown.timeline, shown.playback)
+        self._follow(shown.playback)
 
+    def _follow(self, playback: Playback) -> None:
+        # Keys change speed and loop too; the range has no keys, and is left to its slider.
+        self._speed.value = speed_name(playback.speed)
+        self._loop.value = playback.loop
 
-def _add_keys(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
-    # Arrow keys are left to the sliders, which they move while one has the focus.
-    gui.add_command("Play or pause", hotkey="space").on_trigger(lambda _: post(TogglePlay()))
-    gui.add_command("One frame back", hotkey="J").on_trigger(lambda _: post(Step(-1)))
-    gui.add_command("One frame on", hotkey="L").on_trigger(lambda _: post(Step(1)))
+    def _change(self, event: viser.GuiEvent, **values: Any) -> None:  # noqa: ANN401 (any field)
+        if event.client_id is not None:
+            self._post(ChangePlayback(values))

@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 import viser
-from viser._messages import GuiUpdateMessage
+from viser._messages import CommandTriggerMessage, GuiUpdateMessage
 
 
 class FakeStorage:
@@ -101,6 +101,16 @@ class FakeClient:
     def press(self, label: str) -> None:
         """What a browser sends when a person presses a button."""
         self.change(label, True)
+
+    def trigger(self, label: str) -> None:
+        """What a browser sends when a person chooses a command or presses its key."""
+        found = [c for c in self.gui._command_handle_from_uuid.values() if c.label == label]
+        assert len(found) == 1, f"{len(found)} commands are called {label}"
+        message = CommandTriggerMessage(found[0]._impl.uuid)
+        asyncio.run_coroutine_threadsafe(
+            self.gui._handle_command_trigger(cast(Any, self.client_id), message),
+            self.server.get_event_loop(),
+        ).result(timeout=10)
 
     def text(self) -> str:
         """All HTML of the page."""

@@ -5,6 +5,7 @@ from typing import Any
 from app.estimates import Estimates
 from app.library import Opened
 from app.panel import Desk, Shown
+from app.playback_clock import Playback
 from app.scene.settings import ViewSettings
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
@@ -23,5 +24,7 @@ def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None)
         settings=ViewSettings(),
         pair=Estimates().estimated(opened, frame, parameters),
         playing=False,
+        playback=Playback(0, len(opened.recording) - 1),
+        timeline=Estimates().timeline(opened, parameters),
         seeking=False,
     )

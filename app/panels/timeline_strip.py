@@ -1,0 +1,56 @@
+"""A slim picture of the timeline, below the frame slider."""
+
+from app.colours import FLOW, css
+from app.playback_clock import Playback
+from app.timeline import Timeline
+
+_GAP = "#e8590c"
+_EMPTY = "#868e96"
+_WIDTH = 1000  # of the drawing, stretched to the slider's
+
+
+def strip(timeline: Timeline, playback: Playback) -> str:
+    """HTML: motion, gaps and empty frames along the frames, what is not played pale."""
+    x = _Scale(timeline.count)
+    marks = [_bar(x(a), x(b), 2, 8, css(FLOW)) for a, b in timeline.moving]
+    marks += [_bar(x(a), x(b), 4, 4, _EMPTY) for a, b in timeline.empty]
+    marks += [_bar(x(k - 0.5), x(k - 0.5), 0, 12, _GAP) for k in timeline.gaps]
+    base = _bar(0, _WIDTH, 5, 2, "currentColor", 0.25)
+    shown = _bar(x(playback.first), x(playback.last), 5, 2, "currentColor", 0.6)
+    legend = [("moving", css(FLOW), len(timeline.moving)), ("gap", _GAP, len(timeline.gaps))]
+    legend.append(("empty", _EMPTY, len(timeline.empty)))
+    said = "".join(_key(name, colour) for name, colour, number in legend if number)
+    # The strip lies below the track of viser's slider, between its label and its number.
+    return (
+        '<div style="display: flex; height: 1.5rem; margin-top: -0.4rem; padding: 0 4.4rem 0 1rem;'
+        ' font-size: 0.65rem; line-height: 1.15">'
+        f'<div style="width: 6.3rem; flex: none">{said}</div>'
+        f'<svg viewBox="0 0 {_WIDTH} 12" preserveAspectRatio="none" width="100%" height="12"'
+        f' role="img" aria-label="timeline">{base}{shown}{"".join(marks)}</svg></div>'
+    )
+
+
+class _Scale:
+    def __init__(self, count: int) -> None:
+        self._count = max(count - 1, 1)
+
+    def __call__(self, frame: float) -> float:
+        return _WIDTH * frame / self._count
+
+
+def _bar(start: float, end: float, top: int, height: int, colour: str, opacity: float = 1.0) -> str:
+    # A single frame is still seen.
+    start, width = (start - 6.0, 12.0) if end - start < 12.0 else (start, end - start)
+    return (
+        f'<rect x="{start:.1f}" y="{top}" width="{width:.1f}" height="{height}"'
+        f' fill="{colour}" opacity="{opacity:g}"/>'
+    )
+
+
+def _key(name: str, colour: str) -> str:
+    return (
+        f'<span style="margin-right: 0.6em; white-space: nowrap">'
+        f'<span style="display: inline-block;'
+        f" width: 0.6em; height: 0.6em; margin-right: 0.3em; border-radius: 50%;"
+        f' background: {colour}"></span>{name}</span>'
+    )

@@ -1,0 +1,63 @@
+"""Keys of playback in a real Chromium: who gets them, and what they do."""
+
+from tests.browser.tab import Tab
+
+
+def press(tab: Tab, key: str) -> None:
+    tab.page.keyboard.press(key)
+
+
+def test_keys_go_through_the_recording_and_leave_the_camera_alone(tab: Tab):
+    frame = tab.value("Frame")
+    tab.page.locator("canvas[data-engine]").click()
+    camera = "Array.from(window.__viserMutable.camera.matrixWorld.elements)"
+    tab.page.wait_for_timeout(500)
+    before = tab.page.evaluate(camera)
+    press(tab, "ArrowRight")
+    tab.until(lambda: tab.value("Frame") == frame + 1)
+    press(tab, "Shift+ArrowLeft")
+    tab.until(lambda: tab.value("Frame") == frame - 9)
+    press(tab, "Home")
+    tab.until(lambda: tab.value("Frame") == 0)
+    press(tab, "m")
+    tab.until(lambda: 0 < tab.value("Frame") < frame)
+    press(tab, "End")
+    tab.until(lambda: tab.has_text("Frame 38 of 38"))
+    assert tab.page.evaluate(camera) == before
+
+
+def test_a_slider_that_has_the_focus_keeps_its_keys(tab: Tab):
+    frame = tab.value("Frame")
+    slider = tab.row("γ").locator("[role=slider]")
+    slider.focus()
+    slider.press("Home")
+    tab.until(lambda: tab.value("γ") == 0.0)
+    slider.press("ArrowRight")
+    tab.until(lambda: tab.value("γ") == 0.01)
+    slider.press("l")  # arrives after the others
+    tab.until(lambda: tab.value("Frame") == frame + 1)
+    tab.page.wait_for_timeout(300)
+    assert tab.value("Frame") == frame + 1
+    assert tab.value("γ") == 0.01
+
+
+def test_space_pauses_once_where_the_play_button_has_the_focus(tab: Tab):
+    tab.choose("sideways")
+    tab.until(lambda: tab.has_text("Simulated: sideways"))
+    tab.row("Speed").locator("input").first.click()
+    tab.page.get_by_role("option", name="0.1x").click()
+    tab.page.get_by_role("button", name="Play", exact=True).click()
+    pause = tab.page.get_by_role("button", name="Pause", exact=True)
+    pause.wait_for()
+    pause.press("Space")
+    tab.page.get_by_role("button", name="Play", exact=True).wait_for()
+    tab.page.wait_for_timeout(500)
+    assert pause.count() == 0
+
+
+def test_the_palette_knows_playback(tab: Tab):
+    tab.page.locator("canvas[data-engine]").click()
+    press(tab, "Control+k")
+    tab.page.get_by_placeholder("Search commands").fill("First frame")
+    press(tab, "Enter")
+    tab.until(lambda: tab.has_text("Frame 0 of"))
