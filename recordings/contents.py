@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from recordings.decoding import Decoder
-from recordings.errors import RecordingError
+from recordings.errors import BrokenFileError, RecordingError
 from recordings.mcap_file import ChannelInfo, McapFile
 
 ZONES = (8, 8)
-_DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
+DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _STATUS_ENCODINGS = ("8UC1", "mono8")
 _TRUTH_NAMES = ("target", "truth")
 
@@ -42,12 +42,14 @@ class Topic:
         use: what it is used as.
         why_not: why it is not used, "" where it is.
         frame: frame_id of its first message, "" where its type has no header.
+        candidate: whether it could be the truth, and which of several is unclear.
     """
 
     channel: ChannelInfo
     use: Use
     why_not: str = ""
     frame: str = ""
+    candidate: bool = False
 
     @property
     def name(self) -> str:
@@ -67,17 +69,17 @@ def topics_of(file: McapFile, decoder: Decoder) -> list[Topic]:
 def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
     """Keep one topic for a use: the one named as truth, or the only one that there is."""
     candidates = [topic for topic in topics if topic.use is use]
-    named = [topic for topic in candidates if _named_truth(topic.name)]
+    named = [topic for topic in candidates if named_truth(topic.name)]
     if len(candidates) == 1 or len(named) == 1:
         chosen = (named or candidates)[0]
         why_not = f"{chosen.name} is used as the {use}"
     else:
         chosen = None
-        why_not = f"{len(candidates)} topics could be the {use}; name one /target or /truth"
+        why_not = f"{len(candidates)} topics could be the {use}, and not one is named as it"
     return [
         topic
         if topic.use is not use or topic is chosen
-        else replace(topic, use=Use.NOTHING, why_not=why_not)
+        else replace(topic, use=Use.NOTHING, why_not=why_not, candidate=chosen is None)
         for topic in topics
     ]
 
@@ -112,6 +114,8 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
         return Topic(channel, Use.NOTHING, "it has no messages")
     try:
         first = decoder.decode(channel, 0)
+    except BrokenFileError:
+        raise
     except RecordingError:
         return Topic(channel, Use.NOTHING, "its first message does not fit its type")
     use = _BY_TYPE[kind](channel.topic, first)
@@ -126,7 +130,7 @@ def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded mess
         return (
             f"it is {image.width} x {image.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
         )
-    if image.encoding in _DEPTH_ENCODINGS:
+    if image.encoding in DEPTH_ENCODINGS:
         return Use.DEPTH
     if image.encoding in _STATUS_ENCODINGS:
         return Use.STATUS
@@ -136,9 +140,11 @@ def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded mess
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
     if (info.height, info.width) != ZONES:
         return f"it is for {info.width} x {info.height} and not {ZONES[1]} x {ZONES[0]} zones"
-    fx, fy = float(info.k[0]), float(info.k[4])
-    if not all(math.isfinite(f) and f != 0 for f in (fx, fy)):
+    fx, fy, cx, cy = camera_matrix(info)
+    if not all(math.isfinite(f) and f > 0 for f in (fx, fy)):
         return f"its focal lengths are {fx:g} and {fy:g}"
+    if not (math.isfinite(cx) and math.isfinite(cy)):
+        return f"its optical axis is at {cx:g}, {cy:g}"
     return Use.CAMERA_INFO
 
 
@@ -153,10 +159,11 @@ def _text(topic: str, message: Any) -> Use | str:  # noqa: ANN401
 
 def _pose(topic: str, message: Any) -> Use | str:  # noqa: ANN401
     # Robots publish poses of many things; only a name can tell that one is the truth.
-    return Use.POSE if _named_truth(topic) else "its name does not say that it is the truth"
+    return Use.POSE if named_truth(topic) else "its name does not say that it is the truth"
 
 
-def _named_truth(topic: str) -> bool:
+def named_truth(topic: str) -> bool:
+    """Whether a topic's name says that it is the truth."""
     return any(name in topic.lower() for name in _TRUTH_NAMES)
 
 

@@ -2,6 +2,7 @@
 
 import struct
 import threading
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ class Decoder:
         self._store = get_typestore(Stores.EMPTY)
         self._known: set[str] = set()
         self._lock = threading.Lock()
+        self._stamps: dict[int, NDArray[np.int64]] = {}
         self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""))
 
     def can_decode(self, channel: ChannelInfo) -> bool:
@@ -56,13 +58,26 @@ class Decoder:
         indexed = self._stamp_index.get(channel.topic)
         if indexed is not None and len(indexed) == len(self._file.tables[channel.id]):
             return indexed
-        payloads = self._file.messages(channel)
-        try:
-            return np.array([_stamp(payload) for payload in payloads], dtype=np.int64)
-        except struct.error as error:
-            raise RecordingError(
-                f"{self._file.path} is broken: a message of {channel.topic} is too short."
-            ) from error
+        if channel.id not in self._stamps:
+            self.read_stamps([channel])
+        return self._stamps[channel.id]
+
+    def read_stamps(self, channels: Iterable[ChannelInfo]) -> None:
+        """Read the header stamps of several channels at once, for `header_stamps` to tell.
+
+        Raises:
+            RecordingError: a message is too short for a header.
+        """
+        channels = list(channels)
+        stamps = {c.id: np.zeros(len(self._file.tables[c.id]), np.int64) for c in channels}
+        for channel, index, payload in self._file.in_file_order(channels):
+            try:
+                stamps[channel.id][index] = _stamp(payload)
+            except struct.error as error:
+                raise RecordingError(
+                    f"{self._file.path} is broken: a message of {channel.topic} is too short."
+                ) from error
+        self._stamps |= stamps
 
     def _register(self, channel: ChannelInfo) -> None:
         with self._lock:
@@ -78,9 +93,12 @@ class Decoder:
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)
-    """The header stamp of a decoded message in nanoseconds."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    """The header stamp of a decoded message in nanoseconds; RecordingError where it has none."""
+    try:
+        stamp = message.header.stamp
+        return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    except AttributeError as error:
+        raise RecordingError("A message has no header stamp where its type should.") from error
 
 
 def _stamp(payload: bytes) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 
 from recordings.contents import Topic, topics_of
 from recordings.decoding import Decoder
+from recordings.errors import BrokenFileError
 from recordings.mcap_file import McapFile
 
 
@@ -45,6 +46,7 @@ class FileInfo:
         duration: seconds between the first and the last message.
         topics: in natural order.
         cut_short: whether the file ends in the middle.
+        broken: pieces that are broken and left out.
     """
 
     path: str
@@ -52,6 +54,7 @@ class FileInfo:
     duration: float
     topics: tuple[TopicInfo, ...]
     cut_short: bool
+    broken: int
 
 
 def file_info(path: str | Path) -> FileInfo:
@@ -60,7 +63,13 @@ def file_info(path: str | Path) -> FileInfo:
     Raises:
         RecordingError: it cannot be read as MCAP.
     """
-    file = McapFile(Path(path))
+    try:
+        return _file_info(McapFile(Path(path)), path)
+    except BrokenFileError:
+        return _file_info(McapFile(Path(path), salvage=True), path)
+
+
+def _file_info(file: McapFile, path: str | Path) -> FileInfo:
     try:
         topics = topics_of(file, Decoder(file))
         times = np.concatenate([table.log_time for table in file.tables.values()] or [np.zeros(0)])
@@ -70,6 +79,7 @@ def file_info(path: str | Path) -> FileInfo:
             duration=float(times.max() - times.min()) * 1e-9 if len(times) else 0.0,
             topics=tuple(_topic_info(topic, file) for topic in topics),
             cut_short=file.cut_short,
+            broken=file.broken_chunks,
         )
     finally:
         file.close()

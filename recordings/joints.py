@@ -1,30 +1,37 @@
 """Joint positions at the frames of a recording."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder
+from recordings.errors import few
 from recordings.mcap_file import McapFile
 from recordings.tracks import Stamps, vector_track
 from robot_assets import JointMatch, Robot
 
+_LOOKED_AT = 50  # messages; a stream that mixes arm and gripper shows both among so many
+_NOT_MEASURED = ("desired", "command", "target", "goal")
 
-def joint_names(topics: list[Topic], decoder: Decoder) -> list[str]:
-    """The names of all joints in a file, by the first message of each topic."""
+
+def joint_names(topics: list[Topic], file: McapFile, decoder: Decoder) -> list[str]:
+    """The names of all joints in a file, by the first messages of each topic."""
     names: list[str] = []
-    for topic in topics:
-        if topic.use is Use.JOINTS:
-            names += [str(name) for name in decoder.decode(topic.channel, 0).name]
+    for topic in _joint_topics(topics):
+        for message_names in _first_names(topic, file, decoder):
+            names += message_names
     return list(dict.fromkeys(names))
 
 
 def joint_positions(
     topics: list[Topic], file: McapFile, decoder: Decoder, match: JointMatch, stamps: Stamps
-) -> dict[str, NDArray[np.float64]]:
+) -> tuple[dict[str, NDArray[np.float64]], list[str]]:
     """Read the positions of a robot's joints at given stamps.
 
-    Joint streams run at up to 1 kHz; only the messages next to a frame are decoded.
+    Where several topics have a joint, measured positions win over desired ones, then the topic
+    with the most joints.
 
     Args:
         topics: of the file; those used as joint positions are read.
@@ -34,28 +41,24 @@ def joint_positions(
         stamps: (K,) nanoseconds.
 
     Returns:
-        {joint: (K,) rad or m, NaN where the recording does not cover the stamp}.
+        {joint: (K,) rad or m, NaN where the recording does not cover the stamp}, and a sentence
+        where several topics had the same joints.
     """
+    found = {
+        topic.name: _of_topic(topic, file, decoder, match, stamps)
+        for topic in _joint_topics(topics)
+    }
     positions: dict[str, NDArray[np.float64]] = {}
-    for topic in [topic for topic in topics if topic.use is Use.JOINTS]:
-        message_stamps = decoder.header_stamps(topic.channel)
-        order = np.argsort(message_stamps, kind="stable")
-        after = np.searchsorted(message_stamps[order], stamps)
-        around = np.clip(np.concatenate([after - 1, after]), 0, len(order) - 1)
-        samples: dict[str, list[tuple[int, float]]] = {}
-        for index in order[np.unique(around)].tolist():
-            message = decoder.decode(topic.channel, index)
-            for name, value in zip(message.name, message.position, strict=False):
-                if joint := match.joints.get(str(name)):
-                    samples.setdefault(joint, []).append((int(message_stamps[index]), float(value)))
-        for joint, pairs in samples.items():
-            track = vector_track(
-                np.array([stamp for stamp, _ in pairs], dtype=np.int64),
-                np.array([[value] for _, value in pairs]),
-            )
-            if track is not None:
-                positions[joint] = track.at(stamps)[:, 0]
-    return positions
+    unused: list[str] = []
+    for name in sorted(found, key=lambda name: (_is_not_measured(name), -len(found[name]))):
+        if set(found[name]) & set(positions):
+            unused.append(name)
+        positions = found[name] | positions
+    warnings = [
+        f"{name} has joints that another topic has too, and is not used for them."
+        for name in unused
+    ]
+    return positions, warnings
 
 
 def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
@@ -64,12 +67,79 @@ def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
     warnings: list[str] = []
     if match.ambiguous:
         warnings.append(
-            f"Several recorded joints fit {', '.join(match.ambiguous)} of {robot.name}; "
+            f"Several recorded joints fit {few(match.ambiguous)} of {robot.name}; "
             "none of them is used."
         )
-    if match.missing and match.joints:
-        warnings.append(
-            f"The recording has no position of {', '.join(match.missing)}; "
-            f"{robot.name} is drawn with it at rest."
-        )
     return match, warnings
+
+
+def unknown_joints(
+    robot: Robot, positions: dict[str, NDArray[np.float64]], placed: Iterable[str]
+) -> list[str]:
+    """Sentences about joints without a position, and what that means for the robot.
+
+    Args:
+        robot: the robot.
+        positions: {joint: (K,)} that were recorded.
+        placed: links that /tf places.
+    """
+    known = {j for j, values in positions.items() if np.isfinite(values).any()}
+    if not known:
+        return []
+    warnings: list[str] = []
+    if missing := [j for j in robot.joint_names if j not in known]:
+        lost = [link for link in robot.links if link not in robot.links_placed_by(known)]
+        lost = [link for link in lost if link not in set(placed)]
+        what = f"{few(lost)} cannot be placed" if lost else "it is taken to be at rest"
+        warnings.append(f"The recording has no position of {few(missing)}; {what}.")
+    sometimes = sum(not np.isfinite(values).all() for j, values in positions.items() if j in known)
+    if sometimes:
+        frames = int(max((~np.isfinite(positions[j])).sum() for j in known))
+        warnings.append(
+            f"Joint positions are not known at {frames} frames; the robot is not placed there, "
+            "and its body not removed."
+        )
+    return warnings
+
+
+def _joint_topics(topics: list[Topic]) -> list[Topic]:
+    return [topic for topic in topics if topic.use is Use.JOINTS]
+
+
+def _is_not_measured(topic: str) -> bool:
+    return any(word in topic.lower() for word in _NOT_MEASURED)
+
+
+def _first_names(topic: Topic, file: McapFile, decoder: Decoder) -> set[tuple[str, ...]]:
+    count = min(len(file.tables[topic.channel.id]), _LOOKED_AT)
+    messages = (decoder.decode(topic.channel, index) for index in range(count))
+    return {tuple(str(name) for name in message.name) for message in messages}
+
+
+def _of_topic(
+    topic: Topic, file: McapFile, decoder: Decoder, match: JointMatch, stamps: Stamps
+) -> dict[str, NDArray[np.float64]]:
+    message_stamps = decoder.header_stamps(topic.channel)
+    wanted = np.arange(len(message_stamps))
+    if len(_first_names(topic, file, decoder)) == 1:
+        # Joint streams run at up to 1 kHz; only the messages next to a frame are decoded. Where
+        # messages hold different joints, any of them may be the one that is needed.
+        order = np.argsort(message_stamps, kind="stable")
+        after = np.searchsorted(message_stamps[order], stamps)
+        around = np.clip(np.concatenate([after - 1, after]), 0, len(order) - 1)
+        wanted = order[np.unique(around)]
+    samples: dict[str, list[tuple[int, float]]] = {}
+    for index in wanted.tolist():
+        message = decoder.decode(topic.channel, index)
+        for name, value in zip(message.name, message.position, strict=False):
+            if joint := match.joints.get(str(name)):
+                samples.setdefault(joint, []).append((int(message_stamps[index]), float(value)))
+    positions: dict[str, NDArray[np.float64]] = {}
+    for joint, pairs in samples.items():
+        track = vector_track(
+            np.array([stamp for stamp, _ in pairs], dtype=np.int64),
+            np.array([[value] for _, value in pairs]),
+        )
+        if track is not None:
+            positions[joint] = track.at(stamps)[:, 0]
+    return positions

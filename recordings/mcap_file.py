@@ -3,7 +3,7 @@
 import struct
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -17,8 +17,9 @@ from mcap.reader import SeekingReader
 from mcap.records import Attachment, Channel, Chunk, MessageIndex, Metadata, Schema
 from mcap.stream_reader import get_chunk_data_stream
 from numpy.typing import NDArray
+from zstandard import ZstdError
 
-from recordings.errors import RecordingError
+from recordings.errors import BrokenFileError, RecordingError
 
 MAGIC = b"\x89MCAP0\r\n"
 _OTHER_MAGIC = {
@@ -29,7 +30,20 @@ _RECORD_HEAD = struct.Struct("<BQ")  # opcode, length of what follows
 _MESSAGE_HEAD = struct.Struct("<HIQQ")  # channel, sequence, log time, publish time
 _UNCHUNKED = -1
 _CACHED_BYTES = 64 * 2**20  # decompressed chunks kept at hand
-_BROKEN = (McapError, OSError, ValueError, EOFError, struct.error, KeyError, UnicodeDecodeError)
+_LATEST = 2**63 - 1  # log times are unsigned in the file; none is as late as this
+_BROKEN = (
+    McapError,
+    OSError,
+    ValueError,  # also a chunk whose CRC is wrong
+    EOFError,
+    struct.error,
+    KeyError,
+    UnicodeDecodeError,
+    OverflowError,
+    MemoryError,  # a length that is nonsense
+    RuntimeError,  # lz4
+    ZstdError,
+)
 
 
 @dataclass(frozen=True)
@@ -72,9 +86,10 @@ class _Contents:
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     cut_short: bool = False
+    broken_chunks: int = 0
 
     def add_message(self, channel: int, log_time: int, chunk: int, offset: int) -> None:
-        self.places.setdefault(channel, []).append((log_time, chunk, offset))
+        self.places.setdefault(channel, []).append((min(log_time, _LATEST), chunk, offset))
 
 
 class McapFile:
@@ -85,26 +100,29 @@ class McapFile:
 
     Args:
         path: the file.
+        salvage: read the file through whatever its index says, and leave broken chunks out.
 
     Raises:
-        RecordingError: the file is not there, not MCAP, or broken.
+        RecordingError: the file is not there, or not MCAP.
+        BrokenFileError: it is broken.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, salvage: bool = False) -> None:
         self.path = path
         self._lock = threading.Lock()
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
         self._stream = _opened(path)
         try:
-            contents = self._from_index() or self._scanned()
+            contents = (None if salvage else self._from_index()) or self._scanned()
+            self.channels, places = _joined(contents)
+            self.tables = {c.id: _table(places[c.id]) for c in self.channels}
         except _BROKEN as error:
             self._stream.close()
-            raise RecordingError(f"{path} is a broken MCAP file: {_text(error)}.") from error
+            raise BrokenFileError(f"{path} is a broken MCAP file: {_text(error)}.") from error
         self.cut_short = contents.cut_short
+        self.broken_chunks = contents.broken_chunks
         self.metadata = contents.metadata
         self.attachments = contents.attachments
-        self.channels = tuple(_channel_info(c, contents) for c in contents.channels.values())
-        self.tables = {c.id: _table(contents.places.get(c.id, [])) for c in self.channels}
 
     def message(self, channel: ChannelInfo, index: int) -> bytes:
         """The payload of a channel's message, by its index in the channel's table."""
@@ -121,13 +139,21 @@ class McapFile:
             start = offset + _RECORD_HEAD.size
             return data[start + _MESSAGE_HEAD.size : start + length]
         except _BROKEN as error:
-            raise RecordingError(
+            raise BrokenFileError(
                 f"{self.path} is broken at message {index} of {channel.topic}: {_text(error)}."
             ) from error
 
-    def messages(self, channel: ChannelInfo) -> Iterator[bytes]:
-        """The payloads of all messages of a channel, in the order of its table."""
-        return (self.message(channel, i) for i in range(len(self.tables[channel.id])))
+    def in_file_order(
+        self, channels: Iterable[ChannelInfo]
+    ) -> Iterator[tuple[ChannelInfo, int, bytes]]:
+        """The messages of several channels as (channel, index, payload), each chunk read once."""
+        places: list[tuple[int, int, ChannelInfo, int]] = []
+        for channel in channels:
+            table = self.tables[channel.id]
+            rows = zip(table.chunk.tolist(), table.offset.tolist(), strict=True)
+            places += [(chunk, offset, channel, i) for i, (chunk, offset) in enumerate(rows)]
+        for _, _, channel, index in sorted(places, key=lambda place: place[:2]):
+            yield channel, index, self.message(channel, index)
 
     def close(self) -> None:
         """Close the file; nothing can be read from it any more."""
@@ -201,7 +227,11 @@ class McapFile:
                 contents.cut_short = True
                 return contents
             if opcode in _SCANNED:
-                _take(contents, opcode, self._stream.read(length), position)
+                try:
+                    _take(contents, opcode, self._stream.read(length), position)
+                except _BROKEN:
+                    # Records stand by themselves: what comes after a broken one is still good.
+                    contents.broken_chunks += 1
             position += _RECORD_HEAD.size + length
 
 
@@ -288,6 +318,20 @@ def _channel_info(channel: Channel, contents: _Contents) -> ChannelInfo:
         schema_encoding=schema.encoding if schema else "",
         schema_data=schema.data if schema else b"",
     )
+
+
+def _joined(
+    contents: _Contents,
+) -> tuple[tuple[ChannelInfo, ...], dict[int, list[tuple[int, int, int]]]]:
+    """Channels with their messages; several publishers of one topic and type are one channel."""
+    channels: dict[tuple[str, str, str], ChannelInfo] = {}
+    places: dict[int, list[tuple[int, int, int]]] = {}
+    for channel in contents.channels.values():
+        info = _channel_info(channel, contents)
+        kind = (info.topic, info.encoding, info.schema_name)
+        first = channels.setdefault(kind, info)
+        places.setdefault(first.id, []).extend(contents.places.get(channel.id, []))
+    return tuple(channels.values()), places
 
 
 def _table(places: list[tuple[int, int, int]]) -> MessageTable:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from recordings.contents import Topic, Use
+from recordings.contents import Topic, Use, named_truth
 from recordings.decoding import Decoder, stamp_of
-from recordings.errors import RecordingError
+from recordings.errors import few
 from recordings.frame_table import FrameTable
 from recordings.mcap_file import McapFile
 from recordings.point_truth import PointTruths
@@ -37,24 +37,32 @@ def object_truth(
         The truth, None where there is none, and sentences about what could not be used.
 
     Raises:
-        RecordingError: there is no such truth frame, or nothing places it in the fixed frame.
+        RecordingError: a message does not fit its type.
     """
     if truth_frame is not None:
         if truth_frame not in tree.frames or not tree.connected(fixed_frame, truth_frame):
-            listed = ", ".join(sorted(tree.frames)) or "no frames"
-            raise RecordingError(
-                f"{file.path}: the truth frame {truth_frame} has no pose in {fixed_frame}; "
-                f"/tf has {listed}."
-            )
+            listed = few(sorted(tree.frames)) or "no frames"
+            return None, [
+                f"The truth frame {truth_frame} has no pose in {fixed_frame}, so there is no "
+                f"truth; /tf has {listed}."
+            ]
         poses = [tree.transform(fixed_frame, truth_frame, k) for k in range(len(stamps))]
         return RigidTruth(np.stack(poses), stamps), []
-    for topic in topics:
-        if topic.use is Use.VELOCITY:
-            return _by_twist(topic, file, decoder, stamps, tree, fixed_frame)
-    for topic in topics:
-        if topic.use is Use.POSE:
-            return _by_pose(topic, file, decoder, stamps, tree, fixed_frame)
-    return None, []
+    warnings: list[str] = []
+    for use, read in ((Use.VELOCITY, _by_twist), (Use.POSE, _by_pose)):
+        for topic in topics:
+            if topic.use is use:
+                truth, said = read(topic, file, decoder, stamps, tree, fixed_frame)
+                warnings += said
+                if truth is not None:
+                    if not named_truth(topic.name):
+                        warnings.append(f"{topic.name} is taken as the {use}: there is no other.")
+                    return truth, warnings
+    return None, warnings + [
+        f"{topic.name} is not used as the truth: {topic.why_not}."
+        for topic in topics
+        if topic.candidate
+    ]
 
 
 def point_truths(
@@ -105,7 +113,11 @@ def _by_twist(
                 f"{fixed_frame}; it is not used as the truth."
             ]
         else:
-            velocity = velocity @ tree.transform(fixed_frame, topic.frame, 0)[:3, :3].T
+            turns = [tree.transform(fixed_frame, topic.frame, k) for k in range(len(stamps))]
+            turn = next((T for T in turns if np.isfinite(T).all()), None)
+            if turn is None:
+                return None, [f"The pose of {topic.frame} is not known at any frame."]
+            velocity = velocity @ turn[:3, :3].T
     track = vector_track(np.array(times, dtype=np.int64), velocity)
     if track is None:
         return None, [f"{topic.name} has no finite velocity."]

@@ -5,22 +5,24 @@ from pathlib import Path
 
 import numpy as np
 
-from recordings.contents import Topic, Use, topics_of
+from recordings.contents import ZONES, Topic, Use, natural_key, topics_of
 from recordings.decoding import Decoder
-from recordings.errors import RecordingError
+from recordings.errors import BrokenFileError, RecordingError, few
 from recordings.frame import Provenance
-from recordings.frame_table import frame_table
-from recordings.joints import joint_names, joint_positions, matched
+from recordings.frame_table import FrameTable, frame_table
+from recordings.joints import joint_names, joint_positions, matched, unknown_joints
 from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
 from recordings.recording import Parts, Recording
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
-from recordings.sensors import depth_stream, recorded_sensors
+from recordings.sensors import RecordedSensor, depth_stream, recorded_sensors
+from recordings.stamp_index import STAMP_INDEX
 from recordings.transforms import TransformTree, read_transforms
 from robot_assets import Rig, Robot, RobotError, Sensor, load_rig, load_robot
 
 PROVENANCE_RECORD = "tofscope"
+_COMPLETE = 0.9  # share of the sensors in a frame, below which something is wrong
 
 
 def open_recording(
@@ -47,7 +49,20 @@ def open_recording(
     Raises:
         RecordingError: the file cannot be read, or holds nothing to estimate from.
     """
-    file = McapFile(Path(path))
+    try:
+        return _opened(McapFile(Path(path)), fixed_frame, truth_frame, rig, robot)
+    except BrokenFileError:
+        # What is not broken is worth having.
+        return _opened(McapFile(Path(path), salvage=True), fixed_frame, truth_frame, rig, robot)
+
+
+def _opened(
+    file: McapFile,
+    fixed_frame: str | None,
+    truth_frame: str | None,
+    rig: Rig | None,
+    robot: Robot | None,
+) -> Recording:
     try:
         return _open(file, fixed_frame, truth_frame, rig, robot)
     except BaseException:
@@ -64,19 +79,30 @@ def _open(
 ) -> Recording:
     decoder = Decoder(file)
     topics = topics_of(file, decoder)
+    if rig is not None:
+        _check_rig(file, rig)
     found = recorded_sensors(topics, decoder, rig)
     if not found:
         raise RecordingError(_nothing_to_estimate_from(file, topics))
+    if STAMP_INDEX not in file.attachments:
+        decoder.read_stamps(t.channel for t in topics if t.use in (Use.DEPTH, Use.STATUS))
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, file, decoder, table.stamps)
-    if file.cut_short:
-        warnings.append("The file is cut short; what it holds up to there is used.")
+    warnings += _about_file(file, table, len(found))
 
-    names = joint_names(topics, decoder)
+    names = joint_names(topics, file, decoder)
     if robot is None:
         robot, said = _robot(topics, decoder, names)
         warnings += said
+    if robot is not None and (missing := robot.missing_meshes):
+        count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
+        warnings.append(
+            f"{count} of {robot.name} not on this machine, such as {missing[0]}; what they show "
+            f"is neither drawn nor removed from the clouds."
+        )
+    if rig is not None and robot is not None:
+        rig.check_links(robot.links, robot.name)
     rig_sensors: list[Sensor | None] = [in_rig for _, _, in_rig in found]
     if rig is None and robot is not None and set(load_robot().links) <= set(robot.links):
         default = recorded_sensors(topics, decoder, load_rig())
@@ -87,11 +113,12 @@ def _open(
     robot_poses = None
     if robot is not None:
         match, said = matched(robot, names)
-        positions = joint_positions(topics, file, decoder, match, table.stamps)
-        warnings += said + _limits(robot, positions)
+        positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
+        warnings += said + doubled + _limits(robot, positions)
+        warnings += unknown_joints(robot, positions, tree.frames)
         robot_poses = RobotPoses(robot, positions, tree, fixed)
     poses = SensorPoses(frames, tree, fixed, rig_sensors, robot_poses, len(table.stamps))
-    _check_placed(file, frames, tree, fixed, rig_sensors, robot)
+    warnings += _unplaced_sensors(file, found, tree, fixed, rig_sensors, robot, rig)
 
     truth, said = object_truth(topics, file, decoder, table.stamps, tree, fixed, truth_frame)
     warnings += said
@@ -113,6 +140,21 @@ def _open(
             warnings=tuple(warnings),
         )
     )
+
+
+def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
+    """Sentences about what is wrong with the file as a whole."""
+    warnings: list[str] = []
+    if file.cut_short:
+        warnings.append("The file is cut short; what it holds up to there is used.")
+    if file.broken_chunks:
+        warnings.append(f"Broken pieces of the file, {file.broken_chunks} of them, are left out.")
+    if table.completeness < _COMPLETE:
+        warnings.append(
+            f"A frame holds {table.completeness * sensors:.1f} of the {sensors} sensors on "
+            f"average; their readings are not taken at the same time, or many are lost."
+        )
+    return warnings
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
@@ -154,9 +196,6 @@ def _robot(
             robot = load_robot(decoder.decode(described.channel, 0).data)
         except RobotError as error:
             return None, [str(error)]
-        if missing := robot.missing_meshes:
-            named = f"{len(missing)} meshes of {robot.name}, such as {missing[0]},"
-            return robot, [f"{named} are not on this machine."]
         return robot, []
     panda = load_robot()
     arm = [joint for joint in panda.joint_names if "finger" not in joint]
@@ -180,32 +219,57 @@ def _fixed_frame(
     known = tree.frames | set(frames) | (set(robot.links) if robot else set())
     if asked is not None:
         if asked not in known:
-            listed = ", ".join(sorted(known))
-            raise RecordingError(f"{file.path} has no frame {asked}; it has {listed}.")
+            listed = [*sorted(known - set(frames)), *sorted(frames, key=natural_key)]
+            raise RecordingError(f"{file.path} has no frame {asked}; it has {few(listed)}.")
         return asked
     in_tree = [frame for frame in frames if frame in tree.frames]
     if in_tree:
         roots = [tree.root_of(frame) for frame in in_tree]
         return max(dict.fromkeys(roots), key=roots.count)
-    return robot.base if robot else frames[0]
+    if robot:
+        return robot.base
+    if len(frames) > 1:
+        raise RecordingError(
+            f"{file.path}: nothing places its {len(frames)} sensors relative to each other; it "
+            f"needs /tf, or joints and a rig."
+        )
+    return frames[0]
 
 
-def _check_placed(
+def _unplaced_sensors(
     file: McapFile,
-    frames: list[str],
+    found: list[tuple[Topic, RecordedSensor, Sensor | None]],
     tree: TransformTree,
     fixed: str,
     rig_sensors: list[Sensor | None],
     robot: Robot | None,
-) -> None:
-    """Refuse a recording none of whose sensors can be placed in the fixed frame."""
-    for frame, sensor in zip(frames, rig_sensors, strict=True):
-        if tree.connected(fixed, frame):
-            return
-        if sensor is not None and robot is not None and sensor.link in robot.links:
-            return
-    raise RecordingError(
-        f"{file.path}: no sensor can be placed in {fixed}; neither /tf nor a rig places "
-        f"{', '.join(frames[:3])}{' ...' if len(frames) > 3 else ''}. "
-        f"Give a rig whose sensors are named like the topics, or another fixed frame."
-    )
+    rig: Rig | None,
+) -> list[str]:
+    """Sentences about sensors that nothing places; refuse a recording where that is all."""
+    unplaced = [
+        topic.frame or topic.name
+        for (topic, _, _), sensor in zip(found, rig_sensors, strict=True)
+        if not tree.connected(fixed, topic.frame)
+        and not (sensor and robot and sensor.link in robot.links)
+    ]
+    if len(unplaced) == len(found):
+        raise RecordingError(
+            f"{file.path}: no sensor can be placed in {fixed}; neither /tf nor a rig places "
+            f"{few(unplaced)}. Give a rig whose sensors are named like the topics, or another "
+            f"fixed frame."
+        )
+    warnings: list[str] = []
+    if unplaced:
+        warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
+    if rig is not None and (strangers := [t.name for t, _, in_rig in found if in_rig is None]):
+        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
+    return warnings
+
+
+def _check_rig(file: McapFile, rig: Rig) -> None:
+    if (rig.model.rows, rig.model.columns) != ZONES:
+        raise RecordingError(
+            f"{file.path}: the rig '{rig.name}' has sensors of {rig.model.rows} x "
+            f"{rig.model.columns} zones (sensor_model.rows, columns), and recordings "
+            f"{ZONES[0]} x {ZONES[1]}."
+        )

@@ -15,6 +15,7 @@ from recordings.errors import RecordingError
 from recordings.tracks import Stamps
 
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+_REAL = ("x", "y", "z", "vx", "vy", "vz")
 _NEAREST = 0.2  # metres: noise of a few percent of some metres, well below the size of an object
 _CACHED_FRAMES = 64
 
@@ -48,11 +49,7 @@ class PointTruths:
         frame = self._frame(k)
         if frame is None:
             return None
-        row = (
-            _rows_by_zone(frame.table, cloud)
-            if "sensor" in frame.table
-            else _rows_by_place(frame.table, cloud)
-        )
+        row = _rows(frame.table, cloud)
         velocity = np.stack([frame.table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
         known = row >= 0
         values = np.full((len(row), 3), np.nan)
@@ -103,10 +100,15 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_ms
     """
     count, step = cloud.width * cloud.height, cloud.point_step
     data = bytes(cloud.data)
-    if len(data) < count * step or any(f.datatype not in _KINDS for f in cloud.fields):
+    names = [f.name for f in cloud.fields]
+    fits = all(
+        f.datatype in _KINDS and f.offset + np.dtype(_KINDS[f.datatype]).itemsize <= step
+        for f in cloud.fields
+    )
+    if len(data) < count * step or not fits or len(set(names)) < len(names):
         raise RecordingError(
-            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes, too few for "
-            f"{count} points of {step}, or a field of an unknown type."
+            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes for {count} "
+            f"points of {step}, and the fields {', '.join(names)}, which does not fit together."
         )
     order = ">" if cloud.is_bigendian else "<"
     layout = np.dtype(
@@ -118,9 +120,10 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_ms
         }
     )
     rows = np.frombuffer(data, dtype=layout, count=count)
+    table = {name: rows[name].astype(np.float64) for name in names}
     return {
-        name: rows[name].astype(np.float64 if rows[name].dtype.kind == "f" else np.int64)
-        for name in layout.names or ()
+        name: values if name in _REAL else np.nan_to_num(values, nan=-1.0).astype(np.int64)
+        for name, values in table.items()
     }
 
 
@@ -135,6 +138,19 @@ def _nearest(messages: Stamps, stamps: Stamps, tolerance: float) -> NDArray[np.i
     )
     near = np.abs(ordered[nearest] - stamps) <= tolerance
     return np.where(near, order[nearest], -1)
+
+
+def _rows(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+    """The row of the table that belongs to each point of a cloud, -1 where there is none."""
+    if {"sensor", "zone"} <= set(table):
+        rows = _rows_by_zone(table, cloud)
+        known = rows >= 0
+        places = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)[rows[known]]
+        apart = np.linalg.norm(places - cloud.points[known], axis=1)
+        # Others may number their sensors in another order; then the places do not agree.
+        if len(apart) and np.median(apart) <= _NEAREST:
+            return rows
+    return _rows_by_place(table, cloud)
 
 
 def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from recordings.cloud import Cloud, Reading
+from recordings.contents import ZONES
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.frame import Provenance
@@ -59,7 +60,6 @@ class Recording:
         robot: None where there is none.
         provenance: where it comes from, None for files that we did not write.
         duplicates: frames dropped because a later one has the same stamp.
-        warnings: a sentence for whatever could not be used.
     """
 
     def __init__(self, parts: Parts) -> None:
@@ -75,13 +75,18 @@ class Recording:
         self.robot: Robot | None = parts.robot.robot if parts.robot else None
         self.provenance = parts.provenance
         self.duplicates = parts.frames.duplicates
-        self.warnings = parts.warnings
+        self._said: dict[str, None] = dict.fromkeys(parts.warnings)
         self._directions = np.stack([sensor.directions for sensor in self.sensors])
 
     @property
     def simulated(self) -> bool:
         """Whether the readings were computed and not measured."""
         return self.provenance is not None and self.provenance.simulated
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for whatever could not be used so far, frames that were read included."""
+        return tuple(self._said)
 
     @property
     def has_truth(self) -> bool:
@@ -181,7 +186,7 @@ class Recording:
 
     def _read(self, k: int) -> Reading:
         parts = self._parts
-        ranges = np.full((len(parts.streams), 8, 8), np.nan)
+        ranges = np.full((len(parts.streams), *ZONES), np.nan)
         for s, stream in enumerate(parts.streams):
             if (index := int(parts.frames.message[k, s])) >= 0:
                 ranges[s] = self._ranges(stream, index)
@@ -214,6 +219,6 @@ class Recording:
         try:
             return readings(image, status, stream.sensor)
         except RecordingError as error:
-            raise RecordingError(
-                f"{self.path}, message {index} of {stream.topic.name}: {error}"
-            ) from error
+            # One bad image does not cost the frame; the sensor shows nothing there.
+            self._said[f"{stream.topic.name}: {error} Such images are left out."] = None
+            return np.full(ZONES, np.nan)

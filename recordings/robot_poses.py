@@ -35,17 +35,16 @@ class RobotPoses:
         self.link_poses = lru_cache(maxsize=_CACHED_FRAMES)(self._link_poses)
 
     def joint_positions(self, k: int) -> dict[str, float]:
-        """{joint: rad or m} at frame `k`, empty where any recorded joint is unknown there."""
+        """{joint: rad or m} of the joints whose position is known at frame `k`."""
         values = {joint: float(position[k]) for joint, position in self._positions.items()}
-        return values if all(np.isfinite(value) for value in values.values()) else {}
+        return {joint: value for joint, value in values.items() if np.isfinite(value)}
 
     def _link_poses(self, k: int) -> dict[str, Transform]:
         """{link: T_fixed_link (4, 4)} of all links whose pose is known at frame `k`."""
         poses: dict[str, Transform] = {}
-        joints = self.joint_positions(k)
-        T_fixed_base = self.base_pose(k)
-        if joints and np.isfinite(T_fixed_base).all():
-            T_base_links = self.robot.link_poses(joints)
+        T_base_links = self._by_joints(k)
+        T_fixed_base = self._base_pose(k, T_base_links)
+        if np.isfinite(T_fixed_base).all():
             poses = {link: T_fixed_base @ T for link, T in T_base_links.items()}
         for link in self.robot.links:
             if link in self._tree.frames:
@@ -54,14 +53,20 @@ class RobotPoses:
                     poses[link] = T_fixed_link
         return poses
 
-    def base_pose(self, k: int) -> Transform:
+    def _by_joints(self, k: int) -> dict[str, Transform]:
+        """{link: T_base_link (4, 4)} of the links that the known joints place."""
+        joints = self.joint_positions(k)
+        if not joints:
+            return {}
+        placed = self.robot.links_placed_by(joints)
+        poses = self.robot.link_poses(joints)
+        return {link: T for link, T in poses.items() if link in placed}
+
+    def _base_pose(self, k: int, T_base_links: dict[str, Transform]) -> Transform:
         """T_fixed_base (4, 4), NaN where unknown."""
         if self._fixed_frame == self.robot.base:
             return np.eye(4)
-        if self._fixed_frame in self.robot.links:
-            # The fixed frame is a link that only the joints place.
-            joints = self.joint_positions(k)
-            if not joints:
-                return np.full((4, 4), np.nan)
-            return inverse(self.robot.link_poses(joints)[self._fixed_frame])
+        if self._fixed_frame in T_base_links:
+            # The fixed frame is a link that the joints place.
+            return inverse(T_base_links[self._fixed_frame])
         return self._tree.transform(self._fixed_frame, self.robot.base, k)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.contents import ZONES, Topic, Use, camera_matrix
+from recordings.contents import DEPTH_ENCODINGS, ZONES, Topic, Use, camera_matrix
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from robot_assets import Rig, SensorModel, zone_rays
@@ -76,6 +76,7 @@ def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[
     """The readings (8, 8) in metres of a depth image, NaN where there is none.
 
     16 bit images hold millimetres with 0 for invalid, 32 bit ones metres with NaN (REP 118).
+    A recording's first image told that it is one of these; a later one may still be another.
 
     Args:
         image: sensor_msgs/Image.
@@ -83,8 +84,13 @@ def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[
         sensor: that it is from.
 
     Raises:
-        RecordingError: the image has fewer bytes than its size says.
+        RecordingError: the image is no depth image, or has fewer bytes than its size says.
     """
+    if (image.height, image.width) != ZONES or image.encoding not in DEPTH_ENCODINGS:
+        raise RecordingError(
+            f"An image of {image.header.frame_id} is {image.width} x {image.height} in "
+            f"{image.encoding!r}, and not {ZONES[1]} x {ZONES[0]} distances."
+        )
     kind = np.dtype(np.float32 if image.encoding == "32FC1" else np.uint16)
     values = pixels(image, kind).astype(np.float64)
     if kind == np.uint16:

@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+import zlib
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -24,5 +25,5 @@ def unpack(data: bytes) -> dict[str, NDArray[np.int64]]:
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as content:
             return {name.replace("|", "/"): content[name].astype(np.int64) for name in content}
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
+    except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile):
         return {}

@@ -12,6 +12,7 @@ from recordings.mcap_file import McapFile
 from recordings.tracks import PoseTrack, Stamps, pose_track
 
 Transform = NDArray[np.float64]
+_STILL = 1e-3  # metres, and rad of small angles
 
 
 @dataclass
@@ -62,9 +63,17 @@ class TransformTree:
         return a == b or bool(set(self.path_to_root(a)) & set(self.path_to_root(b)))
 
     def moves(self, a: str, b: str) -> bool:
-        """Whether the pose between two connected frames can change over the recording."""
+        """Whether the pose between two connected frames changes over the recording.
+
+        Poses that are measured tremble; a millimetre and a milliradian are no motion.
+        """
         up, down = self._branches(a, b)
-        return any(len(self._poses[frame]) > 1 for frame in [*up, *down])
+        changing = [frame for frame in [*up, *down] if len(self._poses[frame]) > 1]
+        if not changing:
+            return False
+        poses = np.stack([self.transform(a, b, k) for k in range(len(self._poses[changing[0]]))])
+        known = poses[np.isfinite(poses).all(axis=(1, 2))]
+        return len(known) == 0 or bool(np.ptp(known, axis=0).max() > _STILL)
 
     def transform(self, a: str, b: str, k: int) -> Transform:
         """T_a_b (4, 4) at frame `k`, NaN where the frames are not connected or it is unknown."""

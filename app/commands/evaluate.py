@@ -21,6 +21,7 @@ from app.recording_flags import (
     recording_paths,
 )
 from estimator import Metrics, Parameters
+from recordings import Recording
 
 _COLUMNS = {
     "pairs": ("pairs", "d"),
@@ -57,6 +58,8 @@ def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
     parameters = parameters_from(options)
     opening = opening_from(options)
+    if options.json:
+        _check_writable(options.json)
     rows: list[dict[str, Any]] = []
     print(_line("recording", [title for title, _ in _COLUMNS.values()]))
     for path in recording_paths(options.paths):
@@ -64,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
         rows.append(row)
         print(_line(path.stem, _cells(row)), flush=True)
         for warning in warnings:
-            print(f"{path.name}: {warning}", file=sys.stderr)
+            print(warning, file=sys.stderr)
     means = _means(rows)
     for mean in means:
         print(_line(f"mean of {mean['scenario']}", _cells(mean)))
@@ -79,25 +82,38 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
     row |= dict.fromkeys(_COLUMNS)
     try:
         with opening.open(path) as recording:
-            warnings = list(recording.warnings)
             if source := recording.provenance:
                 row |= {"scenario": source.scenario, "speed": source.speed, "trial": source.trial}
             metrics = evaluate(recording, parameters)
-            count = len(recording)
+            # After the evaluation: some things are found out only when frames are read.
+            warnings = _about(recording)
     except UserError as error:
         return row, [str(error)]
     if metrics is None:
-        return row, [*warnings, "It has no truth, so there is nothing to compare with."]
+        return row, [*warnings, f"{path} has no truth, so there is nothing to compare with."]
     if metrics.pairs == 0:
         warnings.append(
-            f"None of its pairs counts: it has {count} frames, n is {parameters.n}, and the "
-            f"object must move at both frames of a pair."
+            f"{path} has no pair that counts: the object must move at both frames k-n and k, and "
+            f"n is {parameters.n}."
         )
     if opening.truth_frame is not None:
         warnings.append(
-            f"Coverage, precision and EPE3D take every point to move with {opening.truth_frame}."
+            f"{path}: coverage, precision and EPE3D take every point to move with "
+            f"{opening.truth_frame}."
         )
     return row | _as_json(metrics), warnings
+
+
+def _about(recording: Recording) -> list[str]:
+    said = list(recording.warnings)
+    if recording.duplicates:
+        said.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
+    if recording.unplaced:
+        said.append(
+            f"{recording.unplaced} of {len(recording)} frames are empty: they lie outside the "
+            f"poses that are known."
+        )
+    return [f"{recording.path}: {sentence}" for sentence in said]
 
 
 def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -131,6 +147,12 @@ def _line(name: str, cells: list[str]) -> str:
     widths = [max(len(title), 8) for title, _ in _COLUMNS.values()]
     aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
     return "  ".join([name.ljust(24), *aligned])
+
+
+def _check_writable(path: Path) -> None:
+    """Find out before all the work is done."""
+    if path.is_dir() or not path.absolute().parent.is_dir():
+        raise InputError(f"{path} cannot be written: it is a folder, or its folder is not there.")
 
 
 def _write(path: Path, content: dict[str, Any]) -> None:

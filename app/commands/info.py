@@ -68,6 +68,8 @@ def _text(info: FileInfo, summary: dict[str, Any]) -> str:
     lines = [f"{info.path}: {info.size / 1e6:.2f} MB, {info.duration:.2f} s", ""]
     if info.cut_short:
         lines.insert(1, "The file is cut short; what it holds up to there is used.")
+    if info.broken:
+        lines.insert(1, f"{info.broken} broken pieces of the file are left out.")
     lines += [*_table([_cells(topic) for topic in info.topics]), ""]
     if "problem" in summary:
         return "\n".join([*lines, summary["problem"]])

@@ -59,7 +59,7 @@ def test_a_recording_without_truth_gets_a_row_of_nulls_and_a_warning(
     row = json.loads(table.read_text())["recordings"][0]
     assert row["path"] == str(blind)
     assert all(value is None for key, value in row.items() if key != "path")
-    assert "blind.mcap: It has no truth" in capsys.readouterr().err
+    assert "blind.mcap has no truth" in capsys.readouterr().err
 
     room = write_room(tmp_path / "room.mcap", frames=9).path
     assert main(["evaluate", str(blind), str(room)]) == 0

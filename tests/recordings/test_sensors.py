@@ -17,6 +17,8 @@ COUNTING = np.arange(64).reshape(8, 8)
 def picture(values: np.ndarray, encoding: str, **more: object) -> SimpleNamespace:
     fields = {
         "header": SimpleNamespace(frame_id="eye"),
+        "height": 8,
+        "width": 8,
         "encoding": encoding,
         "is_bigendian": values.dtype.byteorder == ">",
         "step": 8 * values.dtype.itemsize,
@@ -53,6 +55,14 @@ def test_an_image_with_too_few_bytes_is_refused():
     image = picture(COUNTING.astype("<u2"), "16UC1", data=np.zeros(100, np.uint8))
     with pytest.raises(RecordingError, match="100 bytes"):
         pixels(image, np.dtype("u2"))
+
+
+@pytest.mark.parametrize("more", [{"width": 16}, {"height": 4}, {"encoding": "8UC1"}])
+def test_a_later_image_of_another_kind_is_refused(more: dict[str, object]):
+    image = picture(COUNTING.astype("<u2"), "16UC1")
+    vars(image).update(more)
+    with pytest.raises(RecordingError, match="and not 8 x 8 distances"):
+        readings(image, None, SENSOR)
 
 
 def test_only_valid_status_counts_whatever_the_distance_says():

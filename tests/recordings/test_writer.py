@@ -31,15 +31,19 @@ def frames(count: int = 12) -> list[Frame]:
         ranges[rng.uniform(size=ranges.shape) < 0.1] = np.nan
         sensor, zone = np.nonzero(np.isfinite(ranges.reshape(24, 64)))
         moving = sensor % 2 == 1
+        positions = {joint: value + 0.01 * k for joint, value in POSE.items()}
+        links = ROBOT.link_poses(positions)
+        T = np.stack([links[s.link] @ s.T_link_sensor for s in RIG.sensors])
+        seen = ranges[..., None] * RIG.model.directions
+        places = np.einsum("sij,srcj->srci", T[:, :3, :3], seen) + T[:, None, None, :3, 3]
         truth = PointTruth(
-            points=rng.normal(size=(len(sensor), 3)),
+            points=places.reshape(24, 64, 3)[sensor, zone],
             velocity=np.where(moving[:, None], [0.0, -0.15 * (1 + k), 0.0], 0.0),
             object=moving.astype(np.int64),
             sensor=sensor,
             zone=zone,
         )
         velocity = np.array([0.0, -0.15 * (1 + k), 0.0])
-        positions = {joint: value + 0.01 * k for joint, value in POSE.items()}
         made.append(Frame(50 + k / 15, ranges, positions, at(y=0.7 - 0.01 * k), velocity, truth))
     return made
 
