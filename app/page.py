@@ -7,6 +7,7 @@ import viser
 from app.library import Opened
 from app.page_script import set_up_keys
 from app.panel import Desk, Panel, Shown
+from app.panels.explain import ExplainPanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.recordings import RecordingsPanel
@@ -35,6 +36,7 @@ class Page:
         self.parameters = ParametersPanel(desk)
         self._panels += [
             self.parameters,
+            ExplainPanel(desk),
             ViewPanel(desk),
             ScreenshotPanel(desk),
         ]

@@ -43,6 +43,7 @@ class Shown:
         parameters: of the estimate.
         settings: of the drawing.
         pair: of the frame, None where it could not be drawn.
+        picked: index of the picked cluster in the pair's flow, None where none is.
         playing: whether time goes on.
         playback: how it is played.
         timeline: of the recording, as far as it is known.
@@ -54,6 +55,7 @@ class Shown:
     parameters: Parameters
     settings: ViewSettings
     pair: Pair | None
+    picked: int | None
     playing: bool
     playback: Playback
     timeline: Timeline

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import viser
 
 from app.errors import InputError
@@ -18,6 +19,7 @@ from app.playback_clock import Playback, PlaybackClock
 from app.reloads import Left
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
+from app.selection import Selection, cluster_at, cluster_of
 from app.timeline import Timeline, neighbour
 from app.wishes import OpenRecording, Seek
 from estimator import Parameters
@@ -64,6 +66,8 @@ class Workbench:
         self._scene = Scene(client, self.settings)
         self._pair: Pair | None = None
         self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
+        self._selection = Selection()
+        self._picked: int | None = None
         self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post))
 
     @property
@@ -101,6 +105,7 @@ class Workbench:
         recording = opened.recording
         self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
         self.frame = opening_frame(recording, self.parameters.n)
+        self._selection.drop()
         with self.client.atomic():
             self._scene.open(recording)
         self.page.open(opened)
@@ -158,6 +163,18 @@ class Workbench:
         self.settings = replace(self.settings, **values)
         self._scene.change(self.settings)
 
+    def pick(self, cluster: int | None) -> None:
+        """Pick the cluster with this index, or none."""
+        if self._pair is not None:
+            self._selection.pick(self._pair, cluster)
+            self._mark()
+
+    def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> None:
+        """Pick the cluster under a ray (3,), (3,) of the drawing; none where it passes all by."""
+        if self._pair is not None:
+            ray = (self._scene.in_fixed_frame(np.array(v)) for v in (origin, direction))
+            self.pick(cluster_at(self._pair, *ray))
+
     def close(self) -> Left | None:
         """Give back the recording; what was shown is returned, for when the client comes again."""
         if self.opened is None:
@@ -174,6 +191,7 @@ class Workbench:
             parameters=self.parameters,
             settings=self.settings,
             pair=self._pair,
+            picked=self._picked,
             playing=self._clock.playing,
             playback=self.playback,
             timeline=self._timeline(opened),
@@ -188,14 +206,20 @@ class Workbench:
         except Exception as error:
             # The clouds are shown even where the estimator fails on them.
             problem, pair = error, self._estimates.pair(opened, frame, parameters)
+        self._pair = pair
         with self.client.atomic():
             self._scene.show(pair)
+            self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
                 self._scene.place_camera(pair)
-        self._pair = pair
         self._drawn = (opened, frame, parameters)
         if problem is not None:
             raise problem
+
+    def _mark(self) -> None:
+        if self._pair is not None:
+            self._picked = self._selection.follow(self._pair)
+            self._scene.mark(self._pair, cluster_of(self._pair, self._picked))
 
     def _follow_clock(self) -> None:
         if self._clock.playing:

@@ -8,10 +8,12 @@ from app.scene.canvas import Canvas
 from app.scene.clouds_view import FLOW_NODE, SOURCE_NODE, TARGET_NODE, TRUTH_NODE, CloudsView
 from app.scene.first_view import first_view
 from app.scene.robot_view import ROOT, RobotView
+from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.settings import ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
+from estimator import ClusterResult
 from recordings import Recording
 
 _NODES = {
@@ -42,6 +44,7 @@ class Scene:
         self._settings = settings
         self._robot: RobotView | None = None
         self._sensors: SensorsView | None = None
+        self._selection: SelectionView | None = None
         self._shown: Pair | None = None
         self._turn = np.eye(3)
         self._stage = Stage(canvas.scene)
@@ -85,11 +88,25 @@ class Scene:
             self._clouds.show_source(pair.source.points if pair.source else np.zeros((0, 3)))
         self._show_flow(pair)
 
+    def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
+        """Mark a cluster of a pair as picked, or none."""
+        if self._selection is None:
+            if cluster is None:
+                return
+            self._selection = SelectionView(self._canvas.scene, self._settings.point_size)
+        self._selection.show(pair, cluster, self._turn[2])
+
+    def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
+        """A point or a direction (3,) of the drawing in the recording's fixed frame."""
+        return self._turn.T @ vector
+
     def change(self, settings: ViewSettings) -> None:
         """Draw the same pair with other settings."""
         before, self._settings = self._settings, settings
         if settings.point_size != before.point_size:
             self._clouds.set_point_size(settings.point_size)
+            if self._selection:
+                self._selection.set_point_size(settings.point_size)
         if settings.arrow_scale != before.arrow_scale and self._shown:
             self._show_flow(self._shown)
         if settings.layers != before.layers:

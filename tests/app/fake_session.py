@@ -23,6 +23,7 @@ def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None)
         parameters=parameters,
         settings=ViewSettings(),
         pair=Estimates().estimated(opened, frame, parameters),
+        picked=None,
         playing=False,
         playback=Playback(0, len(opened.recording) - 1),
         timeline=Estimates().timeline(opened, parameters),

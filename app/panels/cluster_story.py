@@ -1,0 +1,131 @@
+"""Clusters in words and tables: all of them in short, one of them round by round."""
+
+import math
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from app.colours import FLOW, PICKED, css
+from estimator import ClusterResult, IcpRound, Label, Parameters
+
+FILLS: dict[Label, str] = {
+    Label.MOVING: f'fill="{css(FLOW)}"',
+    Label.STATIONARY: 'fill="currentColor" fill-opacity="0.55"',
+    Label.UNASSIGNED: 'fill="currentColor" fill-opacity="0.2"',
+}
+"""{label: how a bar or a swatch of it is filled}, on light and on dark."""
+
+
+def framed(content: str) -> str:
+    """HTML in the panel's small letters."""
+    return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
+
+
+def cluster_table(clusters: Sequence[ClusterResult], picked: int | None) -> str:
+    """All clusters, a row each, the picked one marked."""
+    head = ("", "Source", "Target", "Fitness", "Displ.", "Label")
+    rows = [
+        (
+            cluster.index == picked,
+            (
+                str(cluster.index),
+                str(len(cluster.source)),
+                str(len(cluster.target)),
+                _number(cluster.fitness, "{:.2f}"),
+                _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
+                f"{swatch(cluster.label)}{cluster.label.name.lower()}",
+            ),
+        )
+        for cluster in clusters
+    ]
+    return framed(
+        f'<div style="max-height: 12em; overflow-y: auto">{_table(head, rows)}</div>'
+        if rows
+        else "No clusters were found in this pair."
+    )
+
+
+def story(cluster: ClusterResult, parameters: Parameters) -> str:
+    """Every round of a cluster, how far each was from the thresholds, and the outcome in words."""
+    title = f"<b>Cluster {cluster.index}</b>: {len(cluster.source)} source and "
+    title += f"{len(cluster.target)} target points"
+    # The inliers of the last round leave only where nothing was decided by it.
+    removing = len(cluster.rounds) - (cluster.label != Label.UNASSIGNED)
+    rows = [
+        (False, _round_cells(number, turn, parameters, removes=number <= removing))
+        for number, turn in enumerate(cluster.rounds, start=1)
+    ]
+    head = ("Round", "Points", "Fitness", "Displ.", "Removed")
+    table = _table(head, rows) if rows else ""
+    note = (
+        '<div style="opacity: 0.65">Points: source / target. Beneath: what it is above (+) or '
+        "below (−) N_min, γ and δ.</div>"
+        if rows
+        else ""
+    )
+    return framed(
+        f"<div>{title}</div>{table}{note}"
+        f'<div style="margin: 0.3em 0">{swatch(cluster.label)}{escape(cluster.reason)}</div>'
+    )
+
+
+def swatch(label: Label) -> str:
+    """A small square in the label's colour."""
+    return (
+        '<svg width="8" height="8" style="margin-right: 0.4em">'
+        f'<rect width="8" height="8" {FILLS[label]}/></svg>'
+    )
+
+
+def legend() -> str:
+    """What the colours of the bars mean, and the mark."""
+    labels = "".join(
+        f'<span style="margin-right: 1em">{swatch(label)}{label.name.lower()}</span>'
+        for label in (Label.MOVING, Label.STATIONARY, Label.UNASSIGNED)
+    )
+    return framed(
+        f"{labels}<div>Clusters, by their last round; those without a round are left out. "
+        f'<span style="color: {css(PICKED)}">▲</span> the picked one.</div>'
+    )
+
+
+def _round_cells(
+    number: int, turn: IcpRound, parameters: Parameters, *, removes: bool
+) -> tuple[str, ...]:
+    most = max(turn.source_size, turn.target_size)
+    displacement = 1e3 * turn.mean_displacement
+    return (
+        str(number),
+        _with_margin(f"{turn.source_size} / {turn.target_size}", most - parameters.n_min, "{:+d}"),
+        _with_margin(f"{turn.fitness:.2f}", turn.fitness - parameters.gamma, "{:+.2f}"),
+        _with_margin(f"{displacement:.0f} mm", displacement - 1e3 * parameters.delta, "{:+.0f}"),
+        f"{len(turn.inlier_source)} / {len(turn.inlier_target)}" if removes else "none",
+    )
+
+
+def _with_margin(value: str, margin: float, form: str) -> str:
+    signed = form.format(margin).replace("-", "−")
+    return f'{value}<div style="opacity: 0.65; font-size: 0.9em">{signed}</div>'
+
+
+def _number(value: float, form: str) -> str:
+    return "–" if math.isnan(value) else form.format(value)
+
+
+def _table(head: Sequence[str], rows: Iterable[tuple[bool, Sequence[str]]]) -> str:
+    """A table of numbers, whose cells are HTML; rows that are True are marked."""
+    cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
+    first = "".join(f"<th {cell}>{name}</th>" for name in head)
+    body = "".join(
+        f'<tr style="border-top: 1px solid rgba(128, 128, 128, 0.3){_mark(marked)}">'
+        + "".join(f"<td {cell}>{content}</td>" for content in cells)
+        + "</tr>"
+        for marked, cells in rows
+    )
+    return (
+        '<table style="width: 100%; border-collapse: collapse; vertical-align: top; '
+        f'font-variant-numeric: tabular-nums"><tr>{first}</tr>{body}</table>'
+    )
+
+
+def _mark(marked: bool) -> str:
+    return f"; box-shadow: inset 3px 0 {css(PICKED)}; font-weight: bold" if marked else ""

@@ -1,0 +1,129 @@
+"""Why: what became of each cluster, the picked one's story, how near the thresholds are."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import viser
+
+from app.estimates import Pair
+from app.panel import Desk, Panel, Shown
+from app.panels.cluster_story import cluster_table, framed, legend, story
+from app.panels.histograms import Histogram, upper_limit
+from app.selection import cluster_of
+from app.wishes import LatestWins
+from estimator import Parameters
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
+
+_NONE: str = "none"
+_STEP = 0.05  # width of a bar of the fitness
+_BARS = 20  # of the displacement
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class PickCluster(LatestWins):
+    """Pick the cluster with this index, or none."""
+
+    index: int | None
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Pick it."""
+        workbench.pick(self.index)
+
+
+@dataclass(frozen=True)
+class PickAt(LatestWins):
+    """Pick the cluster that is clicked on; a click beside all of them picks none."""
+
+    origin: Vector
+    direction: Vector
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Pick it."""
+        workbench.pick_at(self.origin, self.direction)
+
+
+class ExplainPanel(Panel):
+    """Pick a cluster here or in the scene, and read what was decided about it."""
+
+    def __init__(self, desk: Desk) -> None:
+        gui, post = desk.client.gui, desk.post
+        self._pair: Pair | None = None
+        self._picked: int | None = None
+        with gui.add_folder("Explain", expand_by_default=False):
+            self._list = gui.add_dropdown(
+                "Cluster", (_NONE,), hint="Or click on one of its points in the scene."
+            )
+            self._story = gui.add_html("")
+            self._table = gui.add_html("")
+            self._fitness = gui.add_html("")
+            self._displacement = gui.add_html("")
+
+        @self._list.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client_id is not None:
+                chosen = self._list.value
+                post(PickCluster(None if chosen == _NONE else int(chosen.split()[0])))
+
+        # Dragging turns the camera as ever: viser tells a click from a drag.
+        @desk.client.scene.on_click()
+        def _(event: viser.SceneClickEvent) -> None:
+            post(PickAt(event.ray_origin, event.ray_direction))
+
+    def show(self, shown: Shown) -> None:
+        """Tell the clusters of the pair, and the picked one's story."""
+        pair = shown.pair
+        if pair is None or pair.flow is None:
+            self._pair = None
+            self._choices({_NONE: None}, None)
+            self._story.content = framed("There is no estimate of this frame to explain.")
+            self._table.content = self._fitness.content = self._displacement.content = ""
+        elif pair is not self._pair or shown.picked != self._picked:
+            self._pair, self._picked = pair, shown.picked
+            self._explain(pair, shown.picked, shown.parameters)
+
+    def _explain(self, pair: Pair, picked: int | None, parameters: Parameters) -> None:
+        assert pair.flow is not None
+        clusters = pair.flow.clusters
+        names = {
+            f"{cluster.index} {cluster.label.name.lower()}": cluster.index for cluster in clusters
+        }
+        self._choices({_NONE: None, **names}, picked)
+        cluster = cluster_of(pair, picked)
+        self._story.content = (
+            framed("Click on a point in the scene, or choose a cluster, for its story.")
+            if cluster is None
+            else story(cluster, parameters)
+        )
+        self._table.content = cluster_table(clusters, picked)
+        self._fitness.content = Histogram(
+            title="Fitness",
+            values=[(cluster.fitness, cluster.label) for cluster in clusters],
+            upper=1.0,
+            bars=round(1.0 / _STEP),
+            threshold=("γ", parameters.gamma),
+            marked=cluster.fitness if cluster else None,
+        ).svg()
+        moved = [1e3 * cluster.mean_displacement for cluster in clusters]
+        self._displacement.content = (
+            Histogram(
+                title="Mean displacement [mm]",
+                values=[
+                    (value, cluster.label) for value, cluster in zip(moved, clusters, strict=True)
+                ],
+                upper=upper_limit([*moved, 2e3 * parameters.delta]),
+                bars=_BARS,
+                threshold=("δ", 1e3 * parameters.delta),
+                marked=1e3 * cluster.mean_displacement if cluster else None,
+            ).svg()
+            + legend()
+        )
+
+    def _choices(self, indices: dict[str, int | None], picked: int | None) -> None:
+        options = tuple(indices)
+        if options != self._list.options:
+            self._list.options = options
+        self._list.value = next(name for name, index in indices.items() if index == picked)

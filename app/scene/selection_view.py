@@ -1,0 +1,80 @@
+"""The picked cluster: its points drawn larger, a box around them, and its name."""
+
+import itertools
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.colours import PICKED
+from app.estimates import Pair
+from app.scene.stage import FIXED
+from app.selection import points_of
+from estimator import ClusterResult
+
+PICKED_NODE = f"{FIXED}/picked"
+
+_LARGER = 1.5  # radius of a picked point, against that of the others
+_MARGIN = 0.015  # metres between the points and the box around them
+_CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
+_EDGES = np.array(
+    [
+        (a, b)
+        for a, b in itertools.combinations(range(8), 2)
+        if (_CORNERS[a] != _CORNERS[b]).sum() == 1
+    ]
+)
+
+
+class SelectionView:
+    """Draws what is picked, and nothing where nothing is."""
+
+    def __init__(self, scene: viser.SceneApi, point_size: float) -> None:
+        self._frame = scene.add_frame(PICKED_NODE, show_axes=False, visible=False)
+        self._points = scene.add_point_cloud(
+            f"{PICKED_NODE}/points",
+            np.zeros((0, 3)),
+            PICKED,
+            point_size=_LARGER * point_size,
+            point_shape="circle",
+            point_shading="flat",
+            precision="float32",
+        )
+        self._box = scene.add_line_segments(
+            f"{PICKED_NODE}/box",
+            np.zeros((12, 2, 3)),
+            PICKED,
+            thickness=1.5,
+            thickness_units="screen",
+        )
+        self._label = scene.add_label(f"{PICKED_NODE}/label", "", anchor="bottom-center")
+
+    def show(self, pair: Pair, cluster: ClusterResult | None, up: NDArray[np.float64]) -> None:
+        """Mark a cluster of a pair, or nothing for None.
+
+        Args:
+            pair: whose flow has the cluster.
+            cluster: what is picked.
+            up: (3,) unit vector in the fixed frame.
+        """
+        if cluster is None or pair.source is None:
+            self._frame.visible = False
+            return
+        points = points_of(pair, cluster)
+        middle = points.mean(axis=0)
+        self._points.points = pair.source.points[cluster.source].astype(np.float32)
+        self._box.points = box_around(points)
+        self._label.text = f"Cluster {cluster.index}: {cluster.label.name.lower()}"
+        self._label.position = middle + (float(((points - middle) @ up).max()) + 2 * _MARGIN) * up
+        self._frame.visible = True
+
+    def set_point_size(self, metres: float) -> None:
+        """Draw larger points than those of this radius."""
+        self._points.point_size = _LARGER * metres
+
+
+def box_around(points: NDArray[np.float64]) -> NDArray[np.float32]:
+    """The edges (12, 2, 3) of a box along the axes around points (N, 3), at least one."""
+    low, high = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
+    corners = low + _CORNERS * (high - low)
+    return corners[_EDGES].astype(np.float32)
