@@ -22,14 +22,13 @@ def framed(content: str) -> str:
 
 def cluster_table(clusters: Sequence[ClusterResult], picked: int | None) -> str:
     """All clusters, a row each, the picked one marked."""
-    head = ("", "Source", "Target", "Fitness", "Displ.", "Label")
+    head = ("", "Points", "Fitness", "Displ.", "Label")
     rows = [
         (
             cluster.index == picked,
             (
                 str(cluster.index),
-                str(len(cluster.source)),
-                str(len(cluster.target)),
+                f"{len(cluster.source)} / {len(cluster.target)}",
                 _number(cluster.fitness, "{:.2f}"),
                 _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
                 f"{swatch(cluster.label)}{cluster.label.name.lower()}",

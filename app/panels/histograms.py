@@ -9,7 +9,7 @@ from app.colours import PICKED, css
 from app.panels.cluster_story import FILLS
 from estimator import Label
 
-_WIDTH, _HEIGHT = 300, 96
+_WIDTH, _HEIGHT = 300, 98
 _LEFT, _RIGHT, _TOP, _BOTTOM = 22, 292, 30, 76
 
 
@@ -58,12 +58,12 @@ class Histogram:
             f'text-anchor="{anchor}">{symbol} {threshold:g}</text>',
             f'<text x="{_LEFT - 4}" y="{_TOP + 8}" text-anchor="end">{highest}</text>',
             f'<text x="{_LEFT - 4}" y="{_BOTTOM}" text-anchor="end">0</text>',
-            f'<text x="{_LEFT}" y="{_BOTTOM + 14}">0</text>',
-            f'<text x="{_RIGHT}" y="{_BOTTOM + 14}" text-anchor="end">{self.upper:g}</text>',
+            f'<text x="{_LEFT}" y="{_BOTTOM + 18}">0</text>',
+            f'<text x="{_RIGHT}" y="{_BOTTOM + 18}" text-anchor="end">{self.upper:g}</text>',
         ]
         if self.marked is not None and not math.isnan(self.marked):
             at = self._x(self.marked)
-            parts.append(f'<path d="M{at:.1f} {_BOTTOM + 2}l-4 8h8z" fill="{css(PICKED)}"/>')
+            parts.append(f'<path d="M{at:.1f} {_BOTTOM + 2}l-4 7h8z" fill="{css(PICKED)}"/>')
         return (
             f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" width="100%" fill="currentColor" '
             f'font-size="10" role="img" style="padding: 0 0.5em">{"".join(parts)}</svg>'

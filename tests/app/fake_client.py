@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 import viser
-from viser._messages import CommandTriggerMessage, GuiUpdateMessage
+from viser._messages import CommandTriggerMessage, GuiUpdateMessage, ScenePointerMessage
 
 
 class FakeStorage:
@@ -109,6 +109,16 @@ class FakeClient:
         message = CommandTriggerMessage(found[0]._impl.uuid)
         asyncio.run_coroutine_threadsafe(
             self.gui._handle_command_trigger(cast(Any, self.client_id), message),
+            self.server.get_event_loop(),
+        ).result(timeout=10)
+
+    def click(self, origin: tuple[float, ...], direction: tuple[float, ...]) -> None:
+        """What a browser sends when a person clicks into the scene, with the ray that is meant."""
+        message = ScenePointerMessage(
+            "click", cast(Any, origin), cast(Any, direction), ((0.5, 0.5),), None
+        )
+        asyncio.run_coroutine_threadsafe(
+            self.scene._handle_scene_pointer_updates(cast(Any, self.client_id), message),
             self.server.get_event_loop(),
         ).result(timeout=10)
 

@@ -352,3 +352,27 @@ def test_an_empty_folder_says_what_to_do(client, tmp_path):
     assert str(tmp_path / "empty") in client.markdown()
     session.close()
     session.join(10)
+
+
+def test_a_picked_cluster_stays_picked_until_the_recording_changes(session, client, runs):
+    origin, moving = np.array([0.3, -3.0, 1.0]), points(client, "flow")[50, 0]
+    client.click(tuple(origin), tuple(moving - origin))
+    until(lambda: client.control("Cluster").value.endswith("moving"))
+    assert len(points(client, "picked/points")) == 100
+    until(lambda: "Moving: fitness 1.00 above γ 0.7" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: client.control("Cluster").value.endswith("stationary"))
+    until(lambda: "below δ 0.3 m" in client.text())
+    client.change("n", 5)
+    client.change("Frame", 30)
+    until(lambda: runs.parameters[-1].n == 5 and "Frame 30 of" in client.text())
+    assert client.control("Cluster").value.endswith("stationary")
+    assert client.node(f"{FIXED}/picked").visible
+    client.click(tuple(origin), (0.0, 0.0, 1.0))
+    until(lambda: client.control("Cluster").value == "none")
+    assert not client.node(f"{FIXED}/picked").visible
+    client.change("Cluster", client.control("Cluster").options[1])
+    until(lambda: client.node(f"{FIXED}/picked").visible)
+    client.change("Recording", "b")
+    until(lambda: client.control("Cluster").value == "none")
+    assert not client.node(f"{FIXED}/picked").visible

@@ -1,0 +1,138 @@
+import threading
+from dataclasses import replace
+
+import pytest
+
+from app.colours import PICKED, css
+from app.estimates import Estimates
+from app.panels.cluster_story import cluster_table, story
+from app.panels.explain import ExplainPanel, PickAt, PickCluster
+from app.panels.histograms import Histogram, upper_limit
+from estimator import IcpRound, Label, Parameters
+from tests.app.fake_recordings import fake_opened
+from tests.app.fake_session import desk, shown
+
+NAN = float("nan")
+
+
+@pytest.fixture(scope="module")
+def clusters():
+    flow = Estimates().estimated(fake_opened(), 20, Parameters()).flow
+    assert flow is not None
+    return flow.clusters
+
+
+@pytest.fixture
+def moving(clusters):
+    (cluster,) = [c for c in clusters if c.label == Label.MOVING]
+    return cluster
+
+
+def test_the_story_says_every_margin_and_the_reason(moving):
+    text = story(moving, Parameters(gamma=0.7, delta=0.04, n_min=60))
+    assert "100 source and 100 target points" in text
+    # 0.15 m/s over eight frames of 1/15 s.
+    for said in ("100 / 100", "+40", "1.00", "+0.30", "80 mm", "+40", "none", moving.reason):
+        assert said in text
+    below = story(moving, Parameters(gamma=0.7, delta=0.2, n_min=150))
+    assert "−50" in below
+    assert "−120" in below
+
+
+def test_removed_inliers_are_those_of_the_rounds_that_removed(moving):
+    first = moving.rounds[0]
+    part = replace(first, inlier_source=first.inlier_source[:30], fitness=0.3)
+    again = replace(moving, rounds=(part, first))
+    assert story(again, Parameters()).count("30 / 100") == 1
+    assert story(again, Parameters()).count("none") == 1
+    given_up = replace(again, label=Label.UNASSIGNED)
+    assert "none" not in story(given_up, Parameters())
+
+
+def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
+    text = story(replace(moving, rounds=(), reason="Unassigned: few <points>."), Parameters())
+    assert "Unassigned: few &lt;points&gt;." in text
+    assert "<table" not in text
+
+
+def test_the_table_marks_the_picked_cluster_alone(clusters, moving):
+    assert cluster_table(clusters, None).count(css(PICKED)) == 0
+    table = cluster_table([*clusters, replace(moving, index=9, rounds=())], moving.index)
+    assert table.count(css(PICKED)) == 1
+    assert table.count("<tr") == 7
+    assert "–" in table
+    assert "No clusters" in cluster_table([], None)
+
+
+def test_bars_count_by_label_and_the_last_takes_what_lies_beyond():
+    moving, still = Label.MOVING, Label.STATIONARY
+    values = [
+        (0.0, still),
+        (0.19, moving),
+        (0.95, still),
+        (1.0, still),
+        (7.0, moving),
+        (NAN, still),
+    ]
+    counts = Histogram("h", values, 1.0, 5, ("γ", 0.5)).counts()
+    assert [bar.total() for bar in counts] == [2, 0, 0, 0, 3]
+    assert counts[4] == {still: 2, moving: 1}
+
+
+def test_the_threshold_is_a_line_where_it_belongs():
+    def line(threshold):
+        svg = Histogram("h", [], 1.0, 5, ("γ", threshold)).svg()
+        assert f"γ {threshold:g}" in svg
+        return float(svg.split("stroke-dasharray")[0].rsplit('d="M', 1)[1].split()[0])
+
+    start, middle, end = line(0.0), line(0.5), line(1.0)
+    assert start < middle < end
+    assert middle == pytest.approx((start + end) / 2)
+
+
+@pytest.mark.parametrize(
+    ("values", "limit"), [([0.08], 0.1), ([138, NAN], 200), ([500], 500), ([], 1), ([0.0, NAN], 1)]
+)
+def test_axes_end_at_a_round_number(values, limit):
+    assert upper_limit(values) == pytest.approx(limit)
+
+
+def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, moving):
+    panel, now = ExplainPanel(desk(client)), shown(fake_opened())
+    panel.show(now)
+    assert len(client.control("Cluster").options) == 6
+    assert client.control("Cluster").value == "none"
+    assert moving.reason not in client.text()
+    panel.show(replace(now, picked=moving.index))
+    assert client.control("Cluster").value == f"{moving.index} moving"
+    assert moving.reason in client.text()
+    panel.show(replace(now, pair=None))
+    assert client.control("Cluster").options == ("none",)
+    assert "There is no estimate of this frame to explain." in client.text()
+    assert "<svg" not in client.text()
+
+
+def test_what_a_person_picks_is_posted(client):
+    posted, clicked = [], threading.Event()
+
+    def post(wish):
+        posted.append(wish)
+        if isinstance(wish, PickAt):
+            clicked.set()
+
+    panel = ExplainPanel(desk(client, post))
+    panel.show(shown(fake_opened()))
+    assert posted == []
+    client.change("Cluster", client.control("Cluster").options[2])
+    client.change("Cluster", "none")
+    client.click((0.0, 1.0, 2.0), (0.0, 0.0, 1.0))
+    assert clicked.wait(10)
+    assert posted == [PickCluster(1), PickCluster(None), PickAt((0.0, 1.0, 2.0), (0.0, 0.0, 1.0))]
+
+
+def test_rounds_are_told_in_their_order(moving):
+    rounds: tuple[IcpRound, ...] = tuple(
+        replace(moving.rounds[0], fitness=fitness) for fitness in (0.11, 0.22, 0.93)
+    )
+    text = story(replace(moving, rounds=rounds), Parameters())
+    assert text.index("0.11") < text.index("0.22") < text.index("0.93")
