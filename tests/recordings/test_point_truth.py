@@ -1,0 +1,90 @@
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from recordings import Cloud, RecordingError
+from recordings.point_truth import _rows, fields_of
+
+
+def message(rows: np.ndarray, **more: object) -> SimpleNamespace:
+    described: Any = rows.dtype.fields or {}
+    codes = {"f4": 7, "u1": 2}
+    fields = {
+        "header": SimpleNamespace(frame_id="world"),
+        "width": len(rows),
+        "height": 1,
+        "is_bigendian": False,
+        "point_step": rows.dtype.itemsize,
+        "data": np.frombuffer(rows.tobytes(), np.uint8),
+        "fields": [
+            SimpleNamespace(name=n, offset=described[n][1], datatype=codes[described[n][0].str[1:]])
+            for n in rows.dtype.names or ()
+        ],
+    }
+    return SimpleNamespace(**(fields | more))
+
+
+def test_fields_are_read_where_they_lie():
+    rows = np.zeros(
+        3,
+        dtype={
+            "names": ["x", "object"],
+            "formats": ["<f4", "u1"],
+            "offsets": [4, 9],
+            "itemsize": 12,
+        },
+    )
+    rows["x"], rows["object"] = [1, 2, 3], [0, 1, 2]
+    table = fields_of(message(rows))
+    assert table["x"].tolist() == [1.0, 2.0, 3.0]
+    assert table["object"].tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize("more", [{"point_step": 3}, {"width": 10}])
+def test_a_cloud_that_does_not_fit_together_is_refused(more: dict[str, object]):
+    rows = np.zeros(3, dtype=[("x", "<f4"), ("object", "u1")])
+    with pytest.raises(RecordingError, match="does not fit together"):
+        fields_of(message(rows, **more))
+
+
+def test_a_field_named_twice_is_refused():
+    cloud = message(np.zeros(3, dtype=[("x", "<f4"), ("y", "<f4")]))
+    cloud.fields[1].name = "x"
+    with pytest.raises(RecordingError, match="does not fit together"):
+        fields_of(cloud)
+
+
+def cloud_of(points: np.ndarray, sensor: list[int], zone: list[int]) -> Cloud:
+    return Cloud(
+        points=points,
+        sensor=np.array(sensor),
+        zone=np.array(zone),
+        ranges=np.full((2, 8, 8), np.nan),
+        T_fixed_sensor=np.stack([np.eye(4)] * 2),
+        stamp=0.0,
+    )
+
+
+def table_of(points: np.ndarray, **more: list[int]) -> dict[str, np.ndarray]:
+    table = {axis: points[:, i] for i, axis in enumerate("xyz")}
+    return table | {name: np.array(values) for name, values in more.items()}
+
+
+POINTS = np.array([[0.0, 0, 1], [1.0, 0, 1], [5.0, 5, 5]])
+
+
+def test_rows_are_found_by_sensor_and_zone():
+    table = table_of(POINTS + 0.05, sensor=[1, 0, 0], zone=[3, 2, 9])
+    assert _rows(table, cloud_of(POINTS, [1, 0, 1], [3, 2, 7])).tolist() == [0, 1, -1]
+
+
+def test_sensors_that_are_numbered_differently_are_matched_by_place():
+    table = table_of(POINTS[[1, 0, 2]], sensor=[1, 0, 1], zone=[3, 2, 9])
+    assert _rows(table, cloud_of(POINTS, [1, 0, 1], [3, 2, 9])).tolist() == [1, 0, 2]
+
+
+def test_without_zones_rows_are_found_by_place_and_none_is_far_away():
+    table = table_of(POINTS[:2])
+    assert _rows(table, cloud_of(POINTS, [0, 0, 0], [0, 1, 2])).tolist() == [0, 1, -1]
