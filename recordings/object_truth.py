@@ -56,7 +56,10 @@ def object_truth(
                 warnings += said
                 if truth is not None:
                     if not named_truth(topic.name):
-                        warnings.append(f"{topic.name} is taken as the {use}: there is no other.")
+                        what = use.removeprefix("truth: ")
+                        warnings.append(
+                            f"{topic.name} is taken as the truth, being the only {what} there is."
+                        )
                     return truth, warnings
     return None, warnings + [
         f"{topic.name} is not used as the truth: {topic.why_not}."

@@ -164,7 +164,10 @@ def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.in
 
 def _rows_by_place(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
     points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
-    if len(points) == 0 or len(cloud.points) == 0:
+    if len(cloud.points) == 0:
         return np.full(len(cloud.points), -1, dtype=np.int64)
-    distance, row = KDTree(points).query(cloud.points)
-    return np.where(distance <= _NEAREST, row, -1)
+    real = np.flatnonzero(np.isfinite(points).all(axis=1))
+    if len(real) == 0:
+        return np.full(len(cloud.points), -1, dtype=np.int64)
+    distance, row = KDTree(points[real]).query(cloud.points)
+    return np.where(distance <= _NEAREST, real[row], -1)

@@ -234,6 +234,8 @@ def _check_is_urdf(where: str, text: str) -> None:
         raise RobotError(f"{where} is not a URDF: it must be a <robot> with a name.")
     if root.find("link") is None:
         raise RobotError(f"{where} has no links.")
+    if any(not mesh.get("filename") for mesh in root.iter("mesh")):
+        raise RobotError(f"{where} has a <mesh> without a filename.")
 
 
 def _ends_with(recorded: str, core: str) -> bool:

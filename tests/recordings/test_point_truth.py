@@ -88,3 +88,9 @@ def test_sensors_that_are_numbered_differently_are_matched_by_place():
 def test_without_zones_rows_are_found_by_place_and_none_is_far_away():
     table = table_of(POINTS[:2])
     assert _rows(table, cloud_of(POINTS, [0, 0, 0], [0, 1, 2])).tolist() == [0, 1, -1]
+
+
+def test_rows_that_lie_nowhere_belong_to_no_point():
+    table = table_of(np.array([[np.nan, 0, 0], [1.0, 0, 1]]))
+    assert _rows(table, cloud_of(POINTS, [0, 0, 0], [0, 1, 2])).tolist() == [-1, 1, -1]
+    assert _rows(table_of(np.full((2, 3), np.nan)), cloud_of(POINTS, [0] * 3, [0] * 3)).max() == -1
