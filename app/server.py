@@ -5,13 +5,13 @@ import warnings
 
 import viser
 
-from app.colours import BRAND
 from app.errors import InputError
 from app.guarded_server import GuardedServer
 from app.page import TITLE
 from app.session import Session, Shared
+from app.theme import dress
 
-_PANEL_WIDTH = 330  # pixels
+_PANEL_WIDTH = 360  # pixels
 
 
 class Server:
@@ -33,9 +33,7 @@ class Server:
         self._sessions: dict[int, Session] = {}
         self._server = GuardedServer(host, port, label=TITLE)
         self.host, self.port = host, self._server.get_port()
-        self._server.gui.configure_theme(
-            show_logo=False, show_share_button=False, brand_color=BRAND
-        )
+        dress(self._server.gui, dark=False)
         self._server.gui.main_panel.dock_right()
         self._server.gui.main_panel.set_width(_PANEL_WIDTH)
 

@@ -114,3 +114,23 @@ class TogglePlay:
         """Play or pause."""
         if self.times % 2:
             workbench.toggle_play()
+
+
+@dataclass(frozen=True)
+class Look(LatestWins):
+    """Put the camera to the view of this name."""
+
+    view: str
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Put it there."""
+        workbench.look(self.view)
+
+
+@dataclass(frozen=True)
+class CameraMoved(LatestWins):
+    """The person has moved the camera, to or from what it looks at."""
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Draw in sizes that suit it."""
+        workbench.focus()

@@ -175,6 +175,15 @@ class Workbench:
             ray = (self._scene.in_fixed_frame(np.array(v)) for v in (origin, direction))
             self.pick(cluster_at(self._pair, *ray))
 
+    def look(self, view: str) -> None:
+        """Put the camera to the view of this name."""
+        if self._pair is not None:
+            self._scene.place_camera(self._pair, view, self._aspect)
+
+    def focus(self) -> None:
+        """Draw in sizes that suit where the camera is now."""
+        self._scene.focus()
+
     def close(self) -> Left | None:
         """Give back the recording; what was shown is returned, for when the client comes again."""
         if self.opened is None:
@@ -183,6 +192,12 @@ class Workbench:
         self._library.release(self.opened.entry)
         self.opened = None
         return left
+
+    @property
+    def _aspect(self) -> float:
+        """Width by height of the scene in the browser."""
+        camera = self.client.camera
+        return camera.image_width / max(camera.image_height, 1)
 
     def _shown(self, opened: Opened) -> Shown:
         return Shown(
@@ -212,6 +227,9 @@ class Workbench:
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
                 self._scene.place_camera(pair)
+
+                self._scene.place_camera(pair, aspect=self._aspect)
+        self._pair = pair
         self._drawn = (opened, frame, parameters)
         if problem is not None:
             raise problem

@@ -5,8 +5,9 @@ from html import escape
 
 import numpy as np
 
-from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
+from app.colours import Colour, css
 from app.estimates import Pair
+from app.palettes import Palette
 from app.panel import Desk, Panel, Shown
 from estimator import Label, Parameters
 
@@ -26,6 +27,7 @@ class StatusPanel(Panel):
     def __init__(self, desk: Desk) -> None:
         gui = desk.client.gui
         self._said: Pair | None = None
+        self._colours: Palette | None = None
         with gui.add_folder("Status"):
             self._content = gui.add_html("")
 
@@ -35,11 +37,12 @@ class StatusPanel(Panel):
             self._said = None
             self._content.content = _framed("This frame cannot be shown.")
             return
-        if shown.pair is self._said:
+        if shown.pair is self._said and shown.settings.palette is self._colours:
             return
         pair = self._said = shown.pair
+        colours = self._colours = shown.settings.palette
         lines = [f"<div>{escape(text)}</div>" for text in notes(pair, shown.parameters)]
-        said = facts(pair)
+        said = facts(pair, colours)
         if shown.opened.recording.simulated:
             said.append(Fact("Data", "simulated"))
         cells = "".join(_cell(fact) for fact in said)
@@ -51,26 +54,28 @@ def _framed(content: str) -> str:
     return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.5">{content}</div>'
 
 
-def facts(pair: Pair) -> list[Fact]:
+def facts(pair: Pair, colours: Palette) -> list[Fact]:
     """The numbers of a pair, in the order in which they are read, two in a row."""
     source = len(pair.source.points) if pair.source else 0
     found = [
-        Fact("Source", str(source), SOURCE),
-        Fact("Target", str(len(pair.target.points)), TARGET),
+        Fact("Source", str(source), colours.source),
+        Fact("Target", str(len(pair.target.points)), colours.target),
     ]
     if pair.flow is None:
         return found
     labels = pair.flow.label
     found += [
-        Fact("Moving", str(np.count_nonzero(labels == Label.MOVING)), FLOW),
-        Fact("Stationary", str(np.count_nonzero(labels == Label.STATIONARY))),
+        Fact("Moving", str(np.count_nonzero(labels == Label.MOVING)), colours.flow),
+        Fact("Stationary", str(np.count_nonzero(labels == Label.STATIONARY)), colours.stationary),
         Fact("Clusters", str(len(pair.flow.clusters))),
-        Fact("Unassigned", str(np.count_nonzero(labels == Label.UNASSIGNED))),
+        Fact("Unassigned", str(np.count_nonzero(labels == Label.UNASSIGNED)), colours.unassigned),
         Fact("Interval", f"{pair.interval:.3f} s"),
         Fact("Estimate", f"{pair.milliseconds:.0f} ms"),
     ]
     if pair.object_velocity is not None:
-        found.append(Fact("Truth", f"{np.linalg.norm(pair.object_velocity):.3f} m/s", TRUTH))
+        found.append(
+            Fact("Truth", f"{np.linalg.norm(pair.object_velocity):.3f} m/s", colours.truth)
+        )
     errors = pair.errors
     if errors is not None and errors.points_with_flow > 0:
         found += [

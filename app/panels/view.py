@@ -1,50 +1,133 @@
-"""How things are drawn: arrow scale, point size, layers."""
+"""Where the camera stands, and how things are drawn: views, colours, sizes, layers."""
+
+from typing import Literal
 
 import viser
+from viser import Icon
 
-from app.panel import Desk, Panel
-from app.scene.settings import LAYERS
-from app.wishes import ChangeView
+from app.palettes import PALETTES
+from app.panel import Desk, Panel, Shown
+from app.scene.lens import Lens
+from app.scene.settings import ARROW_COLOURS, LAYERS
+from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
+from app.theme import dress
+from app.wishes import CameraMoved, ChangeView, Look
+
+_KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
+    THREE_D: "1",
+    TOP: "2",
+    FRONT: "3",
+    ROBOT: "4",
+    FIT: "F",
+}
 
 
 class ViewPanel(Panel):
     """Change what is drawn; nothing of it makes the estimator run."""
 
     def __init__(self, desk: Desk) -> None:
-        gui, settings, post = desk.client.gui, desk.settings, desk.post
-        with gui.add_folder("View", expand_by_default=False):
-            arrow_scale = gui.add_slider(
-                "Arrow scale",
-                min=0.05,
-                max=2.0,
-                step=0.05,
-                initial_value=settings.arrow_scale,
-                marks=((0.05, "0.05"), (2.0, "2 s")),
-                hint="An arrow is as long as the way that is gone in this time [s].",
-            )
-            point_size = gui.add_slider(
-                "Point size",
-                min=0.5,
-                max=15.0,
-                step=0.5,
-                initial_value=1e3 * settings.point_size,
-                marks=((0.5, "0.5"), (15.0, "15 mm")),
-                hint="Radius of a point [mm].",
-            )
-            layers = {layer: gui.add_checkbox(layer, layer in settings.layers) for layer in LAYERS}
+        self._gui, self._settings, self._post = desk.client.gui, desk.settings, desk.post
+        self._dark = desk.settings.dark
+        with self._gui.add_folder("View"):
+            self._add_views(desk.client.camera)
+            with self._gui.add_folder("Colours, sizes, layers", expand_by_default=False):
+                self._add_colours()
+                self._add_sizes()
+                self._add_layers()
+
+    def show(self, shown: Shown) -> None:
+        """Dress the page in light or dark."""
+        if shown.settings.dark != self._dark:
+            self._dark = shown.settings.dark
+            dress(self._gui, self._dark)
+
+    def _add_views(self, camera: viser.CameraHandle) -> None:
+        views = self._gui.add_button_group(
+            "Camera",
+            VIEWS,
+            hint="Keys: " + ", ".join(f"{_KEYS[view]} {view}" for view in VIEWS),
+        )
+
+        @views.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            self._post(Look(views.value))
+
+        for view, key in _KEYS.items():
+            command = self._gui.add_command(f"View: {view}", hotkey=key, icon=Icon.CAMERA)
+            command.on_trigger(lambda _, view=view: self._post(Look(view)))
+
+        drawn = [Lens(0.0, 1.0)]
+
+        @camera.on_update
+        async def _(camera: viser.CameraHandle) -> None:
+            # While it only turns, nothing has to be drawn anew.
+            lens = Lens.of(camera)
+            if not lens.similar(drawn[0]):
+                drawn[0] = lens
+                self._post(CameraMoved())
+
+    def _add_colours(self) -> None:
+        colours = self._gui.add_dropdown("Colours", PALETTES, initial_value=self._settings.colours)
+        arrows = self._gui.add_dropdown(
+            "Arrows show",
+            ARROW_COLOURS,
+            initial_value=self._settings.arrow_colours,
+            hint="What the colour of an arrow says; the legend says which is which.",
+        )
+        dark = self._gui.add_checkbox("Dark", self._settings.dark)
+        self._connect(colours, "colours", PALETTES)
+        self._connect(arrows, "arrow_colours", ARROW_COLOURS)
+        self._connect(dark, "dark", (False, True))
+
+    def _add_sizes(self) -> None:
+        arrow_scale = self._gui.add_slider(
+            "Arrow scale",
+            min=0.05,
+            max=2.0,
+            step=0.05,
+            initial_value=self._settings.arrow_scale,
+            marks=((0.05, "0.05"), (2.0, "2 s")),
+            hint="An arrow is as long as the way that is gone in this time [s].",
+        )
+        point_size = self._gui.add_slider(
+            "Point size",
+            min=1.0,
+            max=20.0,
+            step=0.5,
+            initial_value=self._settings.point_size,
+            marks=((1.0, "1"), (20.0, "20 px")),
+            hint="Diameter of a point where the camera looks, wherever that is, in pixels of a "
+            "picture that is 720 pixels high.",
+        )
 
         # Coroutines run at once, before anything can change a control's value again.
         @arrow_scale.on_update
         async def _(_: viser.GuiEvent) -> None:
-            post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.05), 2.0)}))
+            self._post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.05), 2.0)}))
 
         @point_size.on_update
         async def _(_: viser.GuiEvent) -> None:
-            post(ChangeView({"point_size": 1e-3 * min(max(point_size.value, 0.5), 15.0)}))
+            self._post(ChangeView({"point_size": min(max(point_size.value, 1.0), 20.0)}))
+
+    def _add_layers(self) -> None:
+        shown = self._settings.layers
+        layers = {layer: self._gui.add_checkbox(layer, layer in shown) for layer in LAYERS}
 
         async def post_layers(_: viser.GuiEvent) -> None:
             shown = frozenset(layer for layer, box in layers.items() if box.value)
-            post(ChangeView({"layers": shown}))
+            self._post(ChangeView({"layers": shown}))
 
         for box in layers.values():
             box.on_update(post_layers)
+
+    def _connect(
+        self,
+        control: viser.GuiInputHandle,
+        setting: str,
+        choices: tuple[str, ...] | tuple[bool, ...],
+    ) -> None:
+        @control.on_update
+        async def _(_: viser.GuiEvent) -> None:
+            # A browser could send anything.
+            if control.value in choices:
+                self._post(ChangeView({setting: control.value}))

@@ -4,54 +4,57 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.colours import FLOW, SOURCE, TARGET, TRUTH
+from app.palettes import Palette
 from app.scene.stage import FIXED
 
 SOURCE_NODE = f"{FIXED}/source"
 TARGET_NODE = f"{FIXED}/target"
 FLOW_NODE = f"{FIXED}/flow"
 TRUTH_NODE = f"{FIXED}/truth"
+GHOST_NODE = f"{FIXED}/ghost"
 
 _HEAD = 0.03  # metres, an arrow's head at most
+_SHAFT, _TRUTH_SHAFT = 0.0013, 0.003  # radii of shafts by the height of the picture
 _NONE = np.zeros((0, 2, 3), dtype=np.float32)
 
 
 class CloudsView:
     """Draws source, target, flow and truth of one pair."""
 
-    def __init__(self, scene: viser.SceneApi, point_size: float) -> None:
-        empty = np.zeros((0, 3))
-        self._target = scene.add_point_cloud(
-            TARGET_NODE,
-            empty,
-            TARGET,
-            point_size=point_size,
-            point_shape="circle",
-            point_shading="flat",
-            precision="float32",
-        )
-        self._source = scene.add_point_cloud(
-            SOURCE_NODE,
-            empty,
-            SOURCE,
-            point_size=point_size,
-            point_shape="circle",
-            point_shading="flat",
-            precision="float32",
-        )
-        self._flow = scene.add_arrows(FLOW_NODE, _NONE, FLOW, shaft_radius=0.003)
-        self._truth = scene.add_arrows(TRUTH_NODE, _NONE, TRUTH, shaft_radius=0.008)
+    def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
+        self._target = _add_cloud(scene, TARGET_NODE)
+        self._source = _add_cloud(scene, SOURCE_NODE)
+        self._ghost = _add_cloud(scene, GHOST_NODE)
+        self._flow = scene.add_arrows(FLOW_NODE, _NONE, palette.flow)
+        self._truth = scene.add_arrows(TRUTH_NODE, _NONE, palette.truth)
+        self._flow.shaft_radius, self._truth.shaft_radius = 0.003, 0.008
+        self.paint(palette)
 
-    def show_source(self, points: NDArray[np.float64]) -> None:
-        """Draw the source (N, 3)."""
+    def paint(self, palette: Palette) -> None:
+        """Draw what is of one colour in the colours of a palette."""
+        self._target.colors = np.array(palette.target, dtype=np.uint8)
+        self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
+        self._truth.colors = np.array(palette.truth, dtype=np.uint8)
+
+    def show_source(self, points: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
+        """Draw the source (N, 3), in a colour (3,) or in one for each point (N, 3)."""
         self._source.points = points.astype(np.float32)
+        self._source.colors = colours
 
     def show_target(self, points: NDArray[np.float64]) -> None:
         """Draw the target (M, 3)."""
         self._target.points = points.astype(np.float32)
 
+    def show_ghost(self, points: NDArray[np.float64]) -> None:
+        """Draw points (N, 3) where the truth says that the moving source points are now."""
+        self._ghost.points = points.astype(np.float32)
+
     def show_flow(
-        self, points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
+        self,
+        points: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+        seconds: float,
+        colours: NDArray[np.uint8],
     ) -> None:
         """Draw arrows as long as the way that is gone in `seconds`.
 
@@ -59,8 +62,11 @@ class CloudsView:
             points: (N, 3) where they start.
             velocity: (N, 3) m/s; rows of NaN have no arrow.
             seconds: above 0.
+            colours: (N, 3).
         """
+        drawn = has_arrow(points, velocity, seconds)
         _draw(self._flow, arrows(points, velocity, seconds), head_width=0.32)
+        self._flow.colors = colours[drawn]
 
     def show_truth(
         self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float
@@ -71,24 +77,63 @@ class CloudsView:
         else:
             _draw(self._truth, arrows(start[None], velocity[None], seconds), head_width=0.5)
 
-    def set_point_size(self, metres: float) -> None:
-        """Draw points with this radius."""
-        self._source.point_size = self._target.point_size = metres
+    @property
+    def radius(self) -> float:
+        """Of a point, metres."""
+        return self._target.point_size
+
+    def fit(self, height: float, point_size: float) -> None:
+        """Draw points and shafts of a size that suits a picture.
+
+        Args:
+            height: metres from the picture's bottom to its top, at what the camera looks at.
+            point_size: diameter of a point, by the height of the picture.
+        """
+        radius = point_size * height / 2
+        self._source.point_size = self._target.point_size = radius
+        self._ghost.point_size = 1.2 * radius
+        self._flow.shaft_radius = _SHAFT * height
+        self._truth.shaft_radius = _TRUTH_SHAFT * height
+        for node, width in ((self._flow, 0.32), (self._truth, 0.5)):
+            _fit_head(node, width)
 
 
 def arrows(
     points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
 ) -> NDArray[np.float64]:
     """Starts and ends (A, 2, 3) of the arrows that can be drawn: finite, and not of length 0."""
-    way = velocity * seconds
-    drawn = np.isfinite(points).all(axis=1) & (np.linalg.norm(way, axis=1) > 1e-6)
-    return np.stack([points[drawn], points[drawn] + way[drawn]], axis=1)
+    drawn = has_arrow(points, velocity, seconds)
+    return np.stack([points[drawn], points[drawn] + seconds * velocity[drawn]], axis=1)
+
+
+def has_arrow(
+    points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
+) -> NDArray[np.bool_]:
+    """Whether (N,) an arrow can be drawn."""
+    long = np.linalg.norm(velocity * seconds, axis=1) > 1e-6
+    return np.isfinite(points).all(axis=1) & long
+
+
+def _add_cloud(scene: viser.SceneApi, name: str) -> viser.PointCloudHandle:
+    return scene.add_point_cloud(
+        name,
+        np.zeros((0, 3)),
+        (0, 0, 0),
+        point_size=0.004,
+        point_shape="circle",
+        point_shading="flat",
+        precision="float32",
+    )
 
 
 def _draw(node: viser.ArrowsHandle, segments: NDArray[np.float64], *, head_width: float) -> None:
-    if len(segments) > 0:
+    node.points = segments.astype(np.float32)
+    _fit_head(node, head_width)
+
+
+def _fit_head(node: viser.ArrowsHandle, head_width: float) -> None:
+    if len(node.points) > 0:
         # All heads are equally long: short enough for the shortest arrow to keep a shaft.
-        shortest = float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).min())
+        shortest = float(np.linalg.norm(node.points[:, 1] - node.points[:, 0], axis=1).min())
         node.head_length = min(_HEAD, 0.4 * shortest)
         node.head_radius = max(head_width * node.head_length, 1.6 * node.shaft_radius)
-    node.points = segments.astype(np.float32)

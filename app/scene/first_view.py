@@ -31,16 +31,26 @@ def first_view(
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
-    near = _near(points @ R_drawing_fixed.T, sensors)
-    # Of the points a few may be wild; of the sensors every one is to be seen.
-    corners = np.vstack([sensors, np.percentile(near, [5, 95], axis=0)]) if len(near) else sensors
-    if len(corners) == 0:
-        corners = np.zeros((1, 3))
-    low, high = corners.min(axis=0), corners.max(axis=0)
+    low, high = corners(points @ R_drawing_fixed.T, sensors)
     centre = (low + high) / 2
     radius = max(float(np.linalg.norm(high - low)) / 2, 0.25)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
     return View(centre + 0.85 * direction * radius / np.sin(fov / 2), centre)
+
+
+def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
+    """The lowest and the highest corner of the box around the sensors and what is near them.
+
+    Args:
+        points: (N, 3) metres.
+        sensors: (S, 3) metres, where they are.
+    """
+    near = _near(points, sensors)
+    # Of the points a few may be wild; of the sensors every one is to be seen.
+    seen = np.vstack([sensors, np.percentile(near, [5, 95], axis=0)]) if len(near) else sensors
+    if len(seen) == 0:
+        seen = np.zeros((1, 3))
+    return seen.min(axis=0), seen.max(axis=0)
 
 
 def _near(points: Vector, sensors: Vector) -> Vector:

@@ -5,15 +5,25 @@ from numpy.typing import NDArray
 
 from app.estimates import Pair
 from app.scene.canvas import Canvas
-from app.scene.clouds_view import FLOW_NODE, SOURCE_NODE, TARGET_NODE, TRUTH_NODE, CloudsView
-from app.scene.first_view import first_view
+from app.scene.clouds_view import (
+    FLOW_NODE,
+    GHOST_NODE,
+    SOURCE_NODE,
+    TARGET_NODE,
+    TRUTH_NODE,
+    CloudsView,
+)
+from app.scene.first_view import View
+from app.scene.flow_colours import arrow_colours, source_colours, speed_limit
+from app.scene.lens import FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
-from app.scene.settings import ViewSettings
+from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
-from estimator import ClusterResult
+from app.scene.views import THREE_D, Film, named_view
+from estimator import MOVING_SPEED, ClusterResult, Label
 from recordings import Recording
 
 _NODES = {
@@ -24,9 +34,15 @@ _NODES = {
     "Target": (TARGET_NODE,),
     "Flow": (FLOW_NODE,),
     "Truth": (TRUTH_NODE,),
+    "Truth ghost": (GHOST_NODE,),
     "Grid and axes": (GRID, AXES),
 }
 """{layer: the nodes that it switches}."""
+
+_LABELS = {STATIONARY: Label.STATIONARY, UNASSIGNED: Label.UNASSIGNED}
+"""{layer: the label of the source points that it switches}."""
+
+_REFERENCE_HEIGHT = 720  # pixels of the picture that sizes in pixels are meant for
 
 _ABOVE = 0.12  # metres from what moves to the truth's arrow
 
@@ -47,10 +63,12 @@ class Scene:
         self._selection: SelectionView | None = None
         self._shown: Pair | None = None
         self._turn = np.eye(3)
-        self._stage = Stage(canvas.scene)
+        self._speed_limit = 0.0
+        self._stage = Stage(canvas.scene, settings.palette)
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
-        self._clouds = CloudsView(canvas.scene, settings.point_size)
+        self._clouds = CloudsView(canvas.scene, settings.palette)
+        self._lens: Lens | None = None
 
     def open(self, recording: Recording) -> None:
         """Prepare the scene for a recording; a robot that looks the same is kept."""
@@ -66,14 +84,31 @@ class Scene:
         self._turn = upright(recording.fixed_frame)
         self._stage.turn(self._turn)
         self._shown = None
+        self._speed_limit = 0.0
 
-    def place_camera(self, pair: Pair) -> None:
-        """Put the camera where the pair and its sensors are seen well."""
+    def place_camera(self, pair: Pair, view: str = THREE_D, aspect: float = 16 / 9) -> None:
+        """Put the camera where the pair and its sensors are seen well.
+
+        Args:
+            pair: what is to be seen.
+            view: the view's name.
+            aspect: width by height of the picture.
+        """
         camera = self._canvas.camera
-        poses = pair.target.T_fixed_sensor
-        view = first_view(pair.target.points, poses, self._turn, camera.fov)
-        camera.position = view.position
-        camera.look_at = view.look_at
+        film = Film(FOV, aspect)
+        before = View(np.asarray(camera.position), np.asarray(camera.look_at))
+        placed = named_view(view, pair, self._turn, film, before)
+        camera.fov = FOV
+        camera.position = placed.position
+        camera.look_at = placed.look_at
+        self.focus()
+
+    def focus(self) -> None:
+        """Draw in sizes that suit where the camera is; at once, or when it has moved."""
+        lens = Lens.of(self._canvas.camera)
+        if self._lens is None or not self._lens.similar(lens):
+            self._lens = lens
+            self._fit(lens)
 
     def show(self, pair: Pair) -> None:
         """Draw a pair; what has not changed since the last one is not sent again."""
@@ -84,8 +119,8 @@ class Scene:
                 self._robot.show(pair.link_poses)
             if self._sensors:
                 self._sensors.show(pair.target.T_fixed_sensor)
-        if before is None or before.source is not pair.source:
-            self._clouds.show_source(pair.source.points if pair.source else np.zeros((0, 3)))
+        self._speed_limit = speed_limit(pair, self._speed_limit)
+        self._show_source(pair)
         self._show_flow(pair)
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
@@ -93,7 +128,7 @@ class Scene:
         if self._selection is None:
             if cluster is None:
                 return
-            self._selection = SelectionView(self._canvas.scene, self._settings.point_size)
+            self._selection = SelectionView(self._canvas.scene, self._clouds.radius)
         self._selection.show(pair, cluster, self._turn[2])
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -103,23 +138,51 @@ class Scene:
     def change(self, settings: ViewSettings) -> None:
         """Draw the same pair with other settings."""
         before, self._settings = self._settings, settings
-        if settings.point_size != before.point_size:
-            self._clouds.set_point_size(settings.point_size)
-            if self._selection:
-                self._selection.set_point_size(settings.point_size)
-        if settings.arrow_scale != before.arrow_scale and self._shown:
+        if settings.palette != before.palette:
+            self._clouds.paint(settings.palette)
+            self._stage.paint(settings.palette)
+        if settings.point_size != before.point_size and self._lens:
+            self._fit(self._lens)
+        if self._shown:
+            self._show_source(self._shown)
             self._show_flow(self._shown)
         if settings.layers != before.layers:
             self._show_layers()
 
+    def _fit(self, lens: Lens) -> None:
+        self._canvas.camera.near = lens.near
+        self._clouds.fit(lens.height, self._settings.point_size / _REFERENCE_HEIGHT)
+        if self._selection:
+            self._selection.set_point_size(self._clouds.radius)
+
+    def _show_source(self, pair: Pair) -> None:
+        """Draw the source in the colours of its labels, but for those that are switched off."""
+        if pair.source is None:
+            self._clouds.show_source(np.zeros((0, 3)), np.zeros(3, dtype=np.uint8))
+            return
+        points, colours = pair.source.points, source_colours(pair, self._settings.palette)
+        if pair.flow is not None and colours.ndim == 2:
+            hidden = [
+                label for layer, label in _LABELS.items() if layer not in self._settings.layers
+            ]
+            drawn = ~np.isin(pair.flow.label, hidden)
+            points, colours = points[drawn], colours[drawn]
+        self._clouds.show_source(points, colours)
+
     def _show_flow(self, pair: Pair) -> None:
-        seconds = self._settings.arrow_scale
-        none = np.zeros((0, 3))
+        seconds, palette = self._settings.arrow_scale, self._settings.palette
+        seeing: list[int] = []
         if pair.source and pair.flow:
-            self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds)
+            colours = arrow_colours(pair, self._settings, self._speed_limit, self._turn)
+            self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds, colours)
+            seeing = pair.source.sensor[pair.flow.label == Label.MOVING].tolist()
         else:
-            self._clouds.show_flow(none, none, seconds)
+            none = np.zeros((0, 3))
+            self._clouds.show_flow(none, none, seconds, none.astype(np.uint8))
+        if self._sensors:
+            self._sensors.highlight(seeing, palette)
         self._clouds.show_truth(*_truth_arrow(pair, self._turn[2]), seconds)
+        self._clouds.show_ghost(_ghost(pair))
 
     def _show_layers(self) -> None:
         for layer, names in _NODES.items():
@@ -144,3 +207,12 @@ def _truth_arrow(
     middle = np.median(points, axis=0)
     above = float(np.percentile((points - middle) @ up, 80)) + _ABOVE
     return middle + above * up, velocity
+
+
+def _ghost(pair: Pair) -> NDArray[np.float64]:
+    """Where the truth says that the moving source points are by now, (M, 3)."""
+    if pair.source is None or pair.truth is None or pair.truth.points is None:
+        return np.zeros((0, 3))
+    way = pair.interval * pair.truth.points
+    moving = np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
+    return pair.source.points[moving] + way[moving]

@@ -1,12 +1,13 @@
 """The sensors: red boxes and rings on the robot, and a frustum for each field of view."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 
 from app.colours import FIELD_OF_VIEW, SENSOR
+from app.palettes import Palette
 from app.scene.placing import place
 from app.scene.shapes import ring_through
 from app.scene.stage import FIXED
@@ -46,6 +47,14 @@ class SensorsView:
         if not self._ringed and np.isfinite(poses).all():
             self._add_rings(poses)
             self._ringed = True
+
+    def highlight(self, seeing: Iterable[int], palette: Palette) -> None:
+        """Draw the fields of view of those sensors that see something moving as the flow is."""
+        seeing = set(seeing)
+        for index, frustum in enumerate(self._frustums):
+            sees = index in seeing
+            frustum.color = palette.flow if sees else palette.field_of_view
+            frustum.thickness = 2.2 if sees else 1.0
 
     def remove(self) -> None:
         """Take the sensors out of the scene."""

@@ -5,6 +5,8 @@ import viser
 import viser.transforms as vtf
 from numpy.typing import NDArray
 
+from app.palettes import Palette
+
 FIXED = "/fixed"
 """The node of the fixed frame: whatever a recording holds is drawn below it."""
 
@@ -15,21 +17,26 @@ AXES = f"{FIXED}/axes"
 class Stage:
     """Light, a grid, and the fixed frame with its axes."""
 
-    def __init__(self, scene: viser.SceneApi) -> None:
+    def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
         _light(scene)
         self._fixed = scene.add_frame(FIXED, show_axes=False)
         scene.add_frame(AXES, axes_length=0.12, axes_radius=0.004, origin_radius=0.0)
-        scene.add_grid(
+        cells, sections = palette.grid
+        self._grid = scene.add_grid(
             GRID,
             width=8.0,
             height=8.0,
             cell_size=0.25,
-            cell_color=(228, 231, 236),
+            cell_color=cells,
             section_size=1.0,
-            section_color=(200, 205, 214),
+            section_color=sections,
             shadow_opacity=0.0,
             fade_distance=9.0,
         )
+
+    def paint(self, palette: Palette) -> None:
+        """Draw the grid in the colours of a palette."""
+        self._grid.cell_color, self._grid.section_color = palette.grid
 
     def turn(self, R_drawing_fixed: NDArray[np.float64]) -> None:
         """Draw the fixed frame turned by a rotation (3, 3)."""

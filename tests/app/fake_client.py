@@ -32,7 +32,13 @@ class FakeClient:
     def __init__(self, server: viser.ViserServer, storage: FakeStorage | None = None):
         self.server, self.scene, self.gui = server, server.scene, server.gui
         self.camera = SimpleNamespace(
-            position=np.zeros(3), look_at=np.zeros(3), fov=0.9, image_height=60, image_width=80
+            position=np.array([2.0, -2.0, 1.5]),
+            look_at=np.zeros(3),
+            fov=0.9,
+            near=0.01,
+            image_height=60,
+            image_width=80,
+            on_update=lambda callback: callback,
         )
         self.local_storage = storage or FakeStorage()
         self.notifications: list[str] = []

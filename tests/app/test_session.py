@@ -146,8 +146,9 @@ def test_the_view_does_not_run_the_estimator(session, client, runs):
     np.testing.assert_allclose(
         after[:, 1] - after[:, 0], 2 * (before[:, 1] - before[:, 0]), atol=1e-5
     )
-    client.change("Point size", 8.0)
-    until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(0.008))
+    radius = client.node(f"{FIXED}/source").point_size
+    client.change("Point size", 10.0)
+    until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(2 * radius))
     client.change("Robot", False)
     until(lambda: not client.node(f"{FIXED}/robot").visible)
     assert len(runs) == count

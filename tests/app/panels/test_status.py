@@ -1,6 +1,7 @@
 from dataclasses import replace
 
 from app.estimates import Estimates
+from app.palettes import PAPER, palette
 from app.panels.status import StatusPanel, facts, notes
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
@@ -8,7 +9,7 @@ from tests.app.fake_session import desk, shown
 
 
 def said(pair):
-    return {fact.name: fact.value for fact in facts(pair)}
+    return {fact.name: fact.value for fact in facts(pair, palette(PAPER, dark=False))}
 
 
 def test_all_numbers_of_a_pair():

@@ -1,0 +1,68 @@
+"""What the colours of points and arrows say."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.colours import Colour
+from app.estimates import Pair
+from app.palettes import Palette, blend
+from app.scene.settings import BY_CLUSTER, BY_DIRECTION, BY_SPEED, ViewSettings
+from estimator import Label
+
+_SPEED_STEP = 0.1  # m/s
+
+WHEEL: tuple[Colour, ...] = (
+    (0, 145, 170),
+    (40, 85, 200),
+    (150, 50, 170),
+    (215, 50, 70),
+    (205, 125, 0),
+    (90, 150, 20),
+    (0, 145, 170),
+)
+"""Around the compass: from -180 to 180 degrees, where it is closed."""
+
+
+def source_colours(pair: Pair, palette: Palette) -> NDArray[np.uint8]:
+    """A colour (3,) for all source points of a pair, or one for each (N, 3) by its label."""
+    if pair.flow is None or len(pair.flow.label) == 0:
+        return np.array(palette.source, dtype=np.uint8)
+    colours = np.zeros((3, 3), dtype=np.uint8)
+    colours[Label.UNASSIGNED] = palette.unassigned
+    colours[Label.STATIONARY] = palette.stationary
+    colours[Label.MOVING] = palette.source
+    return colours[pair.flow.label]
+
+
+def speed_limit(pair: Pair, before: float) -> float:
+    """The speed at the ramp's end in m/s: a round number, never less than it was before."""
+    if pair.flow is None:
+        return before
+    speeds = np.linalg.norm(pair.flow.velocity[pair.flow.label == Label.MOVING], axis=1)
+    fastest = float(np.percentile(speeds, 95)) if len(speeds) else 0.0
+    return max(before, _SPEED_STEP * float(np.ceil(fastest / _SPEED_STEP)))
+
+
+def arrow_colours(
+    pair: Pair, settings: ViewSettings, limit: float, R_drawing_fixed: NDArray[np.float64]
+) -> NDArray[np.uint8]:
+    """A colour (N, 3) for each source point's arrow.
+
+    Args:
+        pair: with a flow.
+        settings: say what the colour means.
+        limit: m/s at the ramp's end.
+        R_drawing_fixed: (3, 3); directions are those of the drawing, seen from above.
+    """
+    assert pair.flow is not None
+    velocity, palette = pair.flow.velocity, settings.palette
+    if settings.arrow_colours == BY_SPEED:
+        speed = np.nan_to_num(np.linalg.norm(velocity, axis=1))
+        return palette.along_ramp(np.clip(speed / max(limit, _SPEED_STEP), 0.0, 1.0))
+    if settings.arrow_colours == BY_DIRECTION:
+        x, y, _ = np.nan_to_num(velocity @ R_drawing_fixed.T).T
+        return blend(WHEEL, np.arctan2(y, x) / (2 * np.pi) + 0.5)
+    if settings.arrow_colours == BY_CLUSTER:
+        categories = np.array(palette.categories, dtype=np.uint8)
+        return categories[pair.flow.cluster % len(categories)]
+    return np.tile(np.array(palette.flow, dtype=np.uint8), (len(velocity), 1))

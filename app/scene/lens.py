@@ -1,0 +1,48 @@
+"""What depends on how far the camera is from what it looks at."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+
+FOV = np.radians(38.0)
+"""Vertical field of view: narrow, so that what is near is not much larger than what is far."""
+
+_KEPT = 1.5  # metres around what the camera looks at, within which everything is drawn
+_CLEARED = 0.45  # of the way to what the camera looks at, at most
+
+
+@dataclass(frozen=True)
+class Lens:
+    """How a camera sees.
+
+    Attributes:
+        distance: metres from the camera to what it looks at.
+        fov: vertical field of view, rad.
+    """
+
+    distance: float
+    fov: float
+
+    @classmethod
+    def of(cls, camera: viser.CameraHandle | viser.InitialCameraConfig) -> "Lens":
+        """The lens of a camera."""
+        way = np.asarray(camera.look_at) - np.asarray(camera.position)
+        return cls(float(np.linalg.norm(way)), float(camera.fov))
+
+    @property
+    def height(self) -> float:
+        """Metres from the bottom of the picture to its top, at what the camera looks at."""
+        return 2 * self.distance * float(np.tan(self.fov / 2))
+
+    @property
+    def near(self) -> float:
+        """Metres from the camera within which nothing is drawn.
+
+        A wall's points just before the camera would be as large as a hand, and hide what matters.
+        """
+        return max(0.01, min(_CLEARED * self.distance, self.distance - _KEPT))
+
+    def similar(self, other: "Lens") -> bool:
+        """Whether nobody could tell the two apart."""
+        return bool(np.isclose(self.height, other.height, rtol=0.04))
