@@ -13,8 +13,9 @@ FLOW_NODE = f"{FIXED}/flow"
 TRUTH_NODE = f"{FIXED}/truth"
 GHOST_NODE = f"{FIXED}/ghost"
 
-_HEAD = 0.03  # metres, an arrow's head at most
+_HEAD = 0.011  # length of an arrow's head by the height of the picture, at most
 _SHAFT, _TRUTH_SHAFT = 0.0013, 0.003  # radii of shafts by the height of the picture
+_HEAD_WIDTH, _TRUTH_HEAD_WIDTH = 0.32, 0.5  # radii of heads by their length
 _NONE = np.zeros((0, 2, 3), dtype=np.float32)
 
 
@@ -27,7 +28,7 @@ class CloudsView:
         self._ghost = _add_cloud(scene, GHOST_NODE)
         self._flow = scene.add_arrows(FLOW_NODE, _NONE, palette.flow)
         self._truth = scene.add_arrows(TRUTH_NODE, _NONE, palette.truth)
-        self._flow.shaft_radius, self._truth.shaft_radius = 0.003, 0.008
+        self._height = 2.5
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
@@ -65,7 +66,7 @@ class CloudsView:
             colours: (N, 3).
         """
         drawn = has_arrow(points, velocity, seconds)
-        _draw(self._flow, arrows(points, velocity, seconds), head_width=0.32)
+        self._draw(self._flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
         self._flow.colors = colours[drawn]
 
     def show_truth(
@@ -75,7 +76,8 @@ class CloudsView:
         if velocity is None:
             self._truth.points = _NONE
         else:
-            _draw(self._truth, arrows(start[None], velocity[None], seconds), head_width=0.5)
+            arrow = arrows(start[None], velocity[None], seconds)
+            self._draw(self._truth, arrow, _TRUTH_HEAD_WIDTH)
 
     @property
     def radius(self) -> float:
@@ -89,13 +91,20 @@ class CloudsView:
             height: metres from the picture's bottom to its top, at what the camera looks at.
             point_size: diameter of a point, by the height of the picture.
         """
+        self._height = height
         radius = point_size * height / 2
         self._source.point_size = self._target.point_size = radius
         self._ghost.point_size = 1.2 * radius
         self._flow.shaft_radius = _SHAFT * height
         self._truth.shaft_radius = _TRUTH_SHAFT * height
-        for node, width in ((self._flow, 0.32), (self._truth, 0.5)):
-            _fit_head(node, width)
+        for node, width in ((self._flow, _HEAD_WIDTH), (self._truth, _TRUTH_HEAD_WIDTH)):
+            _fit_head(node, width, _HEAD * height)
+
+    def _draw(
+        self, node: viser.ArrowsHandle, segments: NDArray[np.float64], head_width: float
+    ) -> None:
+        node.points = segments.astype(np.float32)
+        _fit_head(node, head_width, _HEAD * self._height)
 
 
 def arrows(
@@ -126,14 +135,9 @@ def _add_cloud(scene: viser.SceneApi, name: str) -> viser.PointCloudHandle:
     )
 
 
-def _draw(node: viser.ArrowsHandle, segments: NDArray[np.float64], *, head_width: float) -> None:
-    node.points = segments.astype(np.float32)
-    _fit_head(node, head_width)
-
-
-def _fit_head(node: viser.ArrowsHandle, head_width: float) -> None:
+def _fit_head(node: viser.ArrowsHandle, width: float, longest: float) -> None:
     if len(node.points) > 0:
         # All heads are equally long: short enough for the shortest arrow to keep a shaft.
         shortest = float(np.linalg.norm(node.points[:, 1] - node.points[:, 0], axis=1).min())
-        node.head_length = min(_HEAD, 0.4 * shortest)
-        node.head_radius = max(head_width * node.head_length, 1.6 * node.shaft_radius)
+        node.head_length = min(longest, 0.4 * shortest)
+        node.head_radius = max(width * node.head_length, 1.6 * node.shaft_radius)

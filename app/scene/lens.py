@@ -8,6 +8,9 @@ import viser
 FOV = np.radians(38.0)
 """Vertical field of view: narrow, so that what is near is not much larger than what is far."""
 
+WIDE_FOV = np.radians(70.0)
+"""For a camera that stands in the middle of things."""
+
 _KEPT = 1.5  # metres around what the camera looks at, within which everything is drawn
 _CLEARED = 0.45  # of the way to what the camera looks at, at most
 

@@ -15,14 +15,14 @@ from app.scene.clouds_view import (
 )
 from app.scene.first_view import View
 from app.scene.flow_colours import arrow_colours, source_colours, speed_limit
-from app.scene.lens import FOV, Lens
+from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
-from app.scene.views import THREE_D, Film, named_view
+from app.scene.views import ROBOT, THREE_D, Film, named_view
 from estimator import MOVING_SPEED, ClusterResult, Label
 from recordings import Recording
 
@@ -95,10 +95,10 @@ class Scene:
             aspect: width by height of the picture.
         """
         camera = self._canvas.camera
-        film = Film(FOV, aspect)
+        film = Film(WIDE_FOV if view == ROBOT else FOV, aspect)
         before = View(np.asarray(camera.position), np.asarray(camera.look_at))
         placed = named_view(view, pair, self._turn, film, before)
-        camera.fov = FOV
+        camera.fov = film.fov
         camera.position = placed.position
         camera.look_at = placed.look_at
         self.focus()

@@ -57,11 +57,13 @@ def named_view(
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     axes = poses[:, :3, 2] @ R_drawing_fixed.T
     slanted = first_view(pair.target.points, poses, R_drawing_fixed, film.fov)
+    moving = _moving(pair) @ R_drawing_fixed.T
     if name == ROBOT and len(sensors):
-        return _from_robot(points, sensors, axes, _moving(pair) @ R_drawing_fixed.T)
+        return _from_robot(points, sensors, axes, moving)
     if name == FIT:
         return _everything(points, sensors, film, before or slanted)
-    low, high = corners(points, sensors)
+    box = np.vstack([*corners(points, sensors), *_spread(moving)])
+    low, high = box.min(axis=0), box.max(axis=0)
     centre, (x, y, z) = (low + high) / 2, high - low
     if name == TOP:
         distance = film.distance(x, y) + z / 2
@@ -77,6 +79,11 @@ def _moving(pair: Pair) -> NDArray[np.float64]:
     if pair.source is None or pair.flow is None:
         return np.zeros((0, 3))
     return pair.source.points[pair.flow.label == Label.MOVING]
+
+
+def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Two corners of where most points are, none where there are no points."""
+    return np.percentile(points, [5, 95], axis=0) if len(points) else points
 
 
 def _from_robot(

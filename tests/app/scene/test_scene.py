@@ -1,0 +1,124 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.estimates import Estimates
+from app.palettes import COLOUR_BLIND, PAPER, palette
+from app.scene.clouds_view import FLOW_NODE, GHOST_NODE, SOURCE_NODE, TARGET_NODE
+from app.scene.scene import Scene
+from app.scene.settings import (
+    BY_CLUSTER,
+    BY_DIRECTION,
+    BY_SPEED,
+    LAYERS,
+    STATIONARY,
+    ViewSettings,
+)
+from app.scene.stage import FIXED, GRID
+from estimator import Label, Parameters
+from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
+
+COLOURS = palette(PAPER, dark=False)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return Estimates().estimated(fake_opened(), 20, Parameters())
+
+
+@pytest.fixture
+def scene(client, pair):
+    scene = Scene(client, ViewSettings())
+    scene.open(fake_recording())
+    scene.show(pair)
+    return scene
+
+
+def colours(client, node):
+    return np.unique(np.atleast_2d(client.node(node).colors), axis=0).tolist()
+
+
+def test_labels_are_told_apart(scene, client, pair):
+    drawn = client.node(SOURCE_NODE).colors
+    labels = pair.flow.label
+    assert (drawn[labels == Label.MOVING] == COLOURS.source).all()
+    assert (drawn[labels == Label.STATIONARY] == COLOURS.stationary).all()
+    unassigned = Estimates().estimated(fake_opened(), 20, Parameters(n_min=200))
+    scene.show(unassigned)
+    assert colours(client, SOURCE_NODE) == [list(COLOURS.unassigned)]
+    scene.show(replace(pair, flow=None))
+    assert colours(client, SOURCE_NODE) == [list(COLOURS.source)]
+
+
+def test_stationary_points_can_be_switched_off_alone(scene, client, pair):
+    scene.change(ViewSettings(layers=frozenset(LAYERS) - {STATIONARY}))
+    moving = pair.source.points[pair.flow.label == Label.MOVING]
+    np.testing.assert_allclose(client.node(SOURCE_NODE).points, moving, atol=1e-6)
+    assert client.node(SOURCE_NODE).colors.shape == (100, 3)
+    scene.change(ViewSettings())
+    assert len(client.node(SOURCE_NODE).points) == 500
+
+
+def test_sensors_that_see_something_moving_are_highlighted(scene, client, pair):
+    frustum = client.node(f"{FIXED}/frustums/front")
+    assert frustum.color == COLOURS.flow
+    thick = frustum.thickness
+    scene.show(Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5)))
+    assert frustum.color == COLOURS.field_of_view
+    assert frustum.thickness < thick
+
+
+def test_the_ghost_is_where_the_truth_says_that_the_source_is_now(scene, client, pair):
+    moving = pair.source.points[pair.truly_moving]
+    expected = moving + SPEED * PERIOD * 8
+    np.testing.assert_allclose(client.node(GHOST_NODE).points, expected, atol=1e-5)
+    scene.show(replace(pair, truth=None))
+    assert len(client.node(GHOST_NODE).points) == 0
+
+
+@pytest.mark.parametrize("shown", [BY_SPEED, BY_DIRECTION, BY_CLUSTER])
+def test_arrows_tell_what_they_are_asked_for(scene, client, pair, shown):
+    velocity = pair.flow.velocity.copy()
+    moving = np.flatnonzero(pair.flow.label == Label.MOVING)
+    velocity[moving[:50]] *= -0.2
+    cluster = pair.flow.cluster.copy()
+    cluster[moving[:50]] += 1
+    flow = replace(pair.flow, velocity=velocity, cluster=cluster)
+    scene.show(replace(pair, flow=flow))
+    assert colours(client, FLOW_NODE) == [list(COLOURS.flow)]
+    scene.change(ViewSettings(arrow_colours=shown))
+    drawn = client.node(FLOW_NODE).colors
+    assert len(np.unique(drawn[:50], axis=0)) == len(np.unique(drawn[50:], axis=0)) == 1
+    assert (drawn[0] != drawn[50]).any()
+
+
+def test_another_palette_paints_everything(scene, client):
+    scene.change(ViewSettings(colours=COLOUR_BLIND, dark=True))
+    other = palette(COLOUR_BLIND, dark=True)
+    assert colours(client, TARGET_NODE) == [list(other.target)]
+    assert colours(client, FLOW_NODE) == [list(other.flow)]
+    assert sorted(colours(client, SOURCE_NODE)) == sorted(
+        map(list, [other.source, other.stationary])
+    )
+    assert client.node(GRID).cell_color == other.grid[0]
+
+
+def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, client):
+    sizes = []
+    for distance in (0.3, 4.0):
+        client.camera.position = np.array([0.0, -distance, 0.0])
+        scene.focus()
+        sizes.append(client.node(SOURCE_NODE).point_size / distance)
+    assert sizes[0] == pytest.approx(sizes[1])
+    # 5 of 720 pixels are a diameter of this part of the picture's height.
+    assert sizes[0] == pytest.approx(5 / 720 * np.tan(client.camera.fov / 2))
+
+
+def test_turning_the_camera_sends_nothing(scene, client):
+    client.camera.position = np.array([2.0, 0.0, 0.0])
+    scene.focus()
+    client.take_sent()
+    client.camera.position = np.array([0.0, 2.0, 0.0])
+    scene.focus()
+    assert client.take_sent() == []

@@ -1,0 +1,90 @@
+import numpy as np
+import pytest
+
+from app.estimates import Estimates
+from app.scene.first_view import View
+from app.scene.lens import Lens
+from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Film, named_view
+from estimator import Parameters
+from tests.app.fake_recordings import fake_opened
+
+FILM = Film(np.radians(40), 1.5)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return Estimates().estimated(fake_opened(), 20, Parameters())
+
+
+def in_picture(view, points, film=FILM):
+    """Whether points (N, 3) are in the picture of a camera with z up."""
+    forward = view.look_at - view.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    rays, slope = points - view.position, np.tan(film.fov / 2)
+    depth = rays @ forward
+    high = np.abs(rays @ np.cross(right, forward)) <= depth * slope
+    return high & (np.abs(rays @ right) <= depth * slope * film.aspect)
+
+
+@pytest.mark.parametrize(
+    ("name", "aspect"),
+    [(TOP, 0.6), (TOP, 1.5), (TOP, 2.5), (FRONT, 0.6), (FRONT, 1.5), (FRONT, 2.5), (THREE_D, 1.5)],
+)
+def test_what_moves_is_in_the_picture(pair, name, aspect):
+    film = Film(FILM.fov, aspect)
+    view = named_view(name, pair, np.eye(3), film)
+    moving = pair.source.points[pair.truly_moving]
+    assert in_picture(view, moving, film).mean() > 0.9
+
+
+def test_top_looks_down_with_y_up_in_the_picture(pair):
+    view = named_view(TOP, pair, np.eye(3), FILM)
+    way = view.look_at - view.position
+    assert way[2] < 0
+    np.testing.assert_allclose(way[:2] / way[2], 0.0, atol=2e-3)
+    assert way[1] > 0
+
+
+def test_front_looks_back_along_x(pair):
+    view = named_view(FRONT, pair, np.eye(3), FILM)
+    np.testing.assert_allclose(view.position[1:], view.look_at[1:])
+    assert view.position[0] > view.look_at[0]
+
+
+def test_from_the_robot_a_sensor_looks_at_what_moves(pair):
+    view = named_view(ROBOT, pair, np.eye(3), FILM)
+    sensor = pair.target.T_fixed_sensor[0]
+    np.testing.assert_allclose(view.position, sensor[:3, 3] + 0.01 * sensor[:3, 2])
+    moving = pair.source.points[pair.truly_moving]
+    np.testing.assert_allclose(view.look_at, np.median(moving, axis=0))
+
+
+def test_fit_shows_everything_and_keeps_the_direction(pair):
+    before = View(np.array([3.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]))
+    view = named_view(FIT, pair, np.eye(3), FILM, before)
+    assert in_picture(view, pair.target.points).mean() > 0.95
+    direction, kept = view.look_at - view.position, before.look_at - before.position
+    np.testing.assert_allclose(
+        direction / np.linalg.norm(direction), kept / np.linalg.norm(kept), atol=1e-9
+    )
+
+
+@pytest.mark.parametrize("name", [ROBOT, FIT])
+def test_views_turn_with_the_drawing(pair, name):
+    turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    before = View(np.array([3.0, 1.0, 2.0]), np.zeros(3))
+    turned = View(turn @ before.position, turn @ before.look_at)
+    straight = named_view(name, pair, np.eye(3), FILM, before)
+    other = named_view(name, pair, turn, FILM, turned)
+    np.testing.assert_allclose(other.position, turn @ straight.position, atol=1e-9)
+
+
+def test_a_near_thing_is_cleared_away_only_where_the_camera_is_far():
+    far, close = Lens(4.0, 0.66), Lens(0.3, 0.66)
+    assert far.near == pytest.approx(1.8)
+    assert close.near == 0.01
+    assert far.height / close.height == pytest.approx(4.0 / 0.3)
+    assert not far.similar(close)
+    assert far.similar(Lens(4.1, 0.66))
