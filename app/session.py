@@ -14,7 +14,7 @@ from app.library import Library
 from app.mailbox import Mailbox
 from app.page import show_empty_page
 from app.reloads import Left, Reloads
-from app.wishes import OpenRecording, Seek
+from app.wishes import OpenAny, Seek
 from app.workbench import Workbench
 from estimator import Parameters
 
@@ -79,8 +79,9 @@ class Session:
                 self._shared.parameters,
                 self._mailbox,
             )
-            known = left is not None and left.label in [entry.label for entry in entries]
-            self._mailbox.post(OpenRecording(left.label if left and known else entries[0].label))
+            labels = [entry.label for entry in entries]
+            known = left is not None and left.label in labels
+            self._mailbox.post(OpenAny((*([left.label] if left and known else []), *labels)))
             if left and known:
                 self._mailbox.post(Seek(left.frame))
             try:

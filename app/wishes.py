@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self
 
+from app.errors import InputError, UserError
 from estimator import ParameterError
 
 if TYPE_CHECKING:
@@ -28,6 +29,26 @@ class OpenRecording(LatestWins):
     def fulfil(self, workbench: "Workbench") -> None:
         """Open it."""
         workbench.open(self.label)
+
+
+@dataclass(frozen=True)
+class OpenAny(LatestWins):
+    """Show the first of these recordings that can be opened."""
+
+    labels: tuple[str, ...]
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Open it; InputError says what was wrong with those before it."""
+        problems: list[str] = []
+        for label in self.labels:
+            try:
+                workbench.open(label)
+                break
+            except UserError as error:
+                problems.append(str(error))
+        if problems:
+            more = f" So it is with {len(problems) - 1} more." if len(problems) > 1 else ""
+            raise InputError(problems[0] + more)
 
 
 @dataclass(frozen=True)

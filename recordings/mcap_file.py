@@ -295,7 +295,7 @@ def _opened(path: Path) -> IO[bytes]:
     stream.close()
     found = next((kind for magic, kind in _OTHER_MAGIC.items() if head.startswith(magic)), None)
     if found is None:
-        found = f"beginning with {head[:8]!r}" if head else "empty"
+        raise RecordingError(f"{path} is {'not an MCAP file' if head else 'empty'}.")
     raise RecordingError(f"{path} is not an MCAP file but {found}.")
 
 

@@ -47,4 +47,4 @@ def test_info_of_a_file_that_is_not_mcap_is_one_sentence(
     path = tmp_path / "x.mcap"
     path.write_bytes(b"")
     assert main(["info", str(path)]) == 1
-    assert capsys.readouterr().err == f"tofscope info: {path} is not an MCAP file but empty.\n"
+    assert capsys.readouterr().err == f"tofscope info: {path} is empty.\n"

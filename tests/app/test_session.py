@@ -1,5 +1,6 @@
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -377,3 +378,19 @@ def test_a_picked_cluster_stays_picked_until_the_recording_changes(session, clie
     client.change("Recording", "b")
     until(lambda: client.control("Cluster").value == "none")
     assert not client.node(f"{FIXED}/picked").visible
+
+
+def test_a_bad_recording_at_the_front_does_not_keep_the_others_from_opening(client, shared, folder):
+    (folder / "0_bad.mcap").touch()
+
+    def opener(path):
+        if "bad" in path.stem:
+            raise RecordingError(f"{path.name} is no recording.")
+        return fake_recording(name=path.stem)
+
+    shared = replace(shared, library=Library([folder], opener))
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    assert client.notifications == ["0_bad.mcap is no recording."]
+    session.close()
+    session.join(10)

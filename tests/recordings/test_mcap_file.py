@@ -42,8 +42,8 @@ def test_messages_are_in_the_order_of_their_log_times(tmp_path: Path):
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"", "empty"),
-        (b"root:x:0:0", "beginning with"),
+        (b"", "is empty"),
+        (b"root:x:0:0", "is not an MCAP file"),
         (b"#ROSBAG V2.0\n", "a ROS 1 bag"),
         (b"SQLite format 3\0", "an SQLite file"),
     ],
