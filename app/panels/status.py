@@ -1,15 +1,19 @@
 """What was seen in the pair, in numbers."""
 
+import math
 from dataclasses import dataclass
 from html import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.colours import Colour, css
 from app.estimates import Pair
 from app.palettes import Palette
 from app.panel import Desk, Panel, Shown
-from estimator import Label, Parameters
+from estimator import Label, Parameters, SceneFlow
+
+_NOTHING = "–"
 
 
 @dataclass(frozen=True)
@@ -41,13 +45,13 @@ class StatusPanel(Panel):
             return
         pair = self._said = shown.pair
         colours = self._colours = shown.settings.palette
-        lines = [f"<div>{escape(text)}</div>" for text in notes(pair, shown.parameters)]
-        said = facts(pair, colours)
-        if shown.opened.recording.simulated:
-            said.append(Fact("Data", "simulated"))
-        cells = "".join(_cell(fact) for fact in said)
+        data = "simulated" if shown.opened.recording.simulated else "measured"
+        cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Data", data)])
         grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
-        self._content.content = _framed(f'<div style="{grid}">{cells}</div>{"".join(lines)}')
+        # The note keeps its place also where there is none: the controls below stay put while a
+        # person drags one of them.
+        note = f'<div style="min-height: 3em">{escape(note_on(pair, shown.parameters))}</div>'
+        self._content.content = _framed(f'<div style="{grid}">{cells}</div>{note}')
 
 
 def _framed(content: str) -> str:
@@ -55,47 +59,66 @@ def _framed(content: str) -> str:
 
 
 def facts(pair: Pair, colours: Palette) -> list[Fact]:
-    """The numbers of a pair, in the order in which they are read, two in a row."""
+    """The numbers of a pair, two in a row; always the same ones, – for what is not defined."""
     source = len(pair.source.points) if pair.source else 0
-    found = [
+    flow, errors = pair.flow, pair.errors
+    labels = flow.label if flow else None
+    speed = None if pair.object_velocity is None else float(np.linalg.norm(pair.object_velocity))
+    angle = errors.angle_deg if errors else None
+    velocity = errors.velocity_error if errors else None
+    return [
         Fact("Source", str(source), colours.source),
         Fact("Target", str(len(pair.target.points)), colours.target),
+        Fact("Moving", _count(labels, Label.MOVING), colours.flow),
+        Fact("Stationary", _count(labels, Label.STATIONARY), colours.stationary),
+        Fact("Clusters", str(len(flow.clusters)) if flow else _NOTHING),
+        Fact("Unassigned", _count(labels, Label.UNASSIGNED), colours.unassigned),
+        Fact("Interval", _number(pair.interval, ".3f", " s")),
+        Fact("Estimate", _number(pair.milliseconds, ".0f", " ms")),
+        Fact("Truth", _number(speed, ".3f", " m/s"), colours.truth),
+        Fact("Angle error", _number(angle, ".1f", "°")),
+        Fact("Vel. error", _number(velocity, ".3f", " m/s")),
     ]
-    if pair.flow is None:
-        return found
-    labels = pair.flow.label
-    found += [
-        Fact("Moving", str(np.count_nonzero(labels == Label.MOVING)), colours.flow),
-        Fact("Stationary", str(np.count_nonzero(labels == Label.STATIONARY)), colours.stationary),
-        Fact("Clusters", str(len(pair.flow.clusters))),
-        Fact("Unassigned", str(np.count_nonzero(labels == Label.UNASSIGNED)), colours.unassigned),
-        Fact("Interval", f"{pair.interval:.3f} s"),
-        Fact("Estimate", f"{pair.milliseconds:.0f} ms"),
-    ]
-    if pair.object_velocity is not None:
-        found.append(
-            Fact("Truth", f"{np.linalg.norm(pair.object_velocity):.3f} m/s", colours.truth)
-        )
-    errors = pair.errors
-    if errors is not None and errors.points_with_flow > 0:
-        found += [
-            Fact("Angle error", f"{errors.angle_deg:.1f}°"),
-            Fact("Vel. error", f"{errors.velocity_error:.3f} m/s"),
-        ]
-    return found
 
 
-def notes(pair: Pair, parameters: Parameters) -> list[str]:
-    """What the numbers cannot say, in short sentences."""
+def note_on(pair: Pair, parameters: Parameters) -> str:
+    """What the numbers cannot say: why there is no flow, and what to do about it."""
     if pair.source is None:
-        missing = pair.frame - parameters.n
-        return [f"No pair: frame k-n = {missing} is before the start."]
-    said: list[str] = []
+        return f"No pair: frame k-n = {pair.frame - parameters.n} is before the start."
     if pair.flow is None:
-        said.append("No estimate.")
-    if pair.truth is not None and pair.object_velocity is None:
-        said.append("The moving object is at rest.")
-    return said
+        return "No estimate."
+    if pair.truth is not None and pair.object_velocity is None and len(pair.source.points):
+        return "The moving object is at rest."
+    if not pair.flow.moving.any():
+        return _why_nothing_moves(pair, pair.flow, parameters)
+    return ""
+
+
+def _why_nothing_moves(pair: Pair, flow: SceneFlow, parameters: Parameters) -> str:
+    size = len(flow.label)
+    if size == 0 or len(pair.target.points) == 0:
+        empty = "source" if size == 0 else "target"
+        return f"Nothing moves: the {empty} is empty."
+    if not flow.clusters:
+        hint = "" if parameters.allow_single_cluster else " or allow a single cluster"
+        return f"Nothing moves: no clusters; try a smaller min_cluster_size{hint}."
+    if all(len(c.source) < parameters.n_min > len(c.target) for c in flow.clusters):
+        largest = max(max(len(c.source), len(c.target)) for c in flow.clusters)
+        return f"Nothing moves: every cluster is below N_min; the largest has {largest} points."
+    stationary = [c for c in flow.clusters if c.label is Label.STATIONARY]
+    if stationary:
+        most = max(c.mean_displacement for c in stationary)
+        return f"Nothing moves: displacements reach {most:.3f} m, below δ."
+    fitness = max((r.fitness for c in flow.clusters for r in c.rounds), default=0.0)
+    return f"Nothing moves: fitness reaches {fitness:.2f}, not above γ."
+
+
+def _count(labels: NDArray[np.int64] | None, label: Label) -> str:
+    return _NOTHING if labels is None else str(np.count_nonzero(labels == label))
+
+
+def _number(value: float | None, form: str, unit: str) -> str:
+    return _NOTHING if value is None or math.isnan(value) else f"{value:{form}}{unit}"
 
 
 def _cell(fact: Fact) -> str:

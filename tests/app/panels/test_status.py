@@ -1,8 +1,10 @@
 from dataclasses import replace
 
+import pytest
+
 from app.estimates import Estimates
 from app.palettes import PAPER, palette
-from app.panels.status import StatusPanel, facts, notes
+from app.panels.status import StatusPanel, facts, note_on
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
 from tests.app.fake_session import desk, shown
@@ -29,19 +31,21 @@ def test_all_numbers_of_a_pair():
         "Estimate": "61 ms",
         "Truth": "0.150 m/s",
     }
-    assert notes(pair, Parameters()) == []
+    assert note_on(pair, Parameters()) == ""
 
 
 def test_without_a_source_it_says_why():
     pair = Estimates().estimated(fake_opened(), 2, Parameters(n=8))
-    assert said(pair) == {"Source": "0", "Target": "500"}
-    assert notes(pair, Parameters(n=8)) == ["No pair: frame k-n = -6 is before the start."]
+    numbers = said(pair)
+    assert (numbers.pop("Source"), numbers.pop("Target")) == ("0", "500")
+    assert set(numbers.values()) == {"–"}
+    assert note_on(pair, Parameters(n=8)) == "No pair: frame k-n = -6 is before the start."
 
 
 def test_no_flow_means_no_errors():
     pair = Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5))
     assert said(pair)["Moving"] == "0"
-    assert "Angle error" not in said(pair)
+    assert said(pair)["Angle error"] == "–"
     assert said(pair)["Truth"] == "0.150 m/s"
 
 
@@ -50,8 +54,34 @@ def test_an_object_at_rest_is_said():
     truth = fake.pair_truth(0, 8)
     fake.pair_truth = lambda *_: type(truth)(0 * truth.velocity, 0 * truth.points)
     pair = Estimates().estimated(fake_opened(fake), 20, Parameters())
-    assert notes(pair, Parameters()) == ["The moving object is at rest."]
-    assert "Truth" not in said(pair)
+    assert note_on(pair, Parameters()) == "The moving object is at rest."
+    assert said(pair)["Truth"] == "–"
+
+
+def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
+    opened = fake_opened()
+    pairs = [
+        Estimates().estimated(opened, frame, parameters)
+        for frame, parameters in [(20, Parameters()), (2, Parameters()), (20, Parameters(delta=5))]
+    ]
+    assert len({tuple(said(pair)) for pair in pairs}) == 1
+
+
+@pytest.mark.parametrize(
+    ("parameters", "why"),
+    [
+        (Parameters(delta=0.5), "displacements reach 0.080 m, below δ"),
+        (Parameters(gamma=1.0), "fitness reaches 1.00, not above γ"),
+        (Parameters(n_min=400), "every cluster is below N_min; the largest has 100 points"),
+        (
+            Parameters(min_cluster_size=2000),
+            "no clusters; try a smaller min_cluster_size or allow a single cluster",
+        ),
+    ],
+)
+def test_why_nothing_moves_is_said_in_words(parameters, why):
+    pair = Estimates().estimated(fake_opened(), 20, parameters)
+    assert note_on(pair, parameters) == f"Nothing moves: {why}."
 
 
 def test_simulated_data_are_called_so(client):
