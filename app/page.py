@@ -10,6 +10,7 @@ from app.panel import Desk, Panel, Shown
 from app.panels.explain import ExplainPanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
+from app.panels.presets import PresetsPanel
 from app.panels.recordings import RecordingsPanel
 from app.panels.screenshot import ScreenshotPanel
 from app.panels.status import StatusPanel
@@ -36,6 +37,7 @@ class Page:
         self.parameters = ParametersPanel(desk)
         self._panels += [
             self.parameters,
+            PresetsPanel(desk),
             ExplainPanel(desk),
             ViewPanel(desk),
             ScreenshotPanel(desk),

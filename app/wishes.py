@@ -1,7 +1,7 @@
 """What a person can wish for in a session; a panel with wishes of its own defines them itself."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
 from app.errors import InputError, UserError
@@ -63,12 +63,19 @@ class Seek(LatestWins):
 
 
 @dataclass(frozen=True)
-class ResetParameters(LatestWins):
-    """Estimate with the parameters that the app was started with from now on."""
+class ResetParameters:
+    """Put the parameters of these names back to what the app was started with."""
+
+    names: frozenset[str]
+
+    def after(self, earlier: Self) -> Self:
+        """Both of them."""
+        return type(self)(earlier.names | self.names)
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Put them back."""
-        workbench.set_parameters(workbench.defaults)
+        values = {name: getattr(workbench.defaults, name) for name in self.names}
+        workbench.set_parameters(replace(workbench.parameters, **values))
 
 
 @dataclass(frozen=True)

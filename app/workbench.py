@@ -15,6 +15,7 @@ from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox
 from app.page import Page
 from app.panel import Desk, Shown
+from app.parameter_history import ParameterHistory
 from app.playback_clock import Playback, PlaybackClock
 from app.reloads import Left
 from app.scene.scene import Scene
@@ -63,6 +64,7 @@ class Workbench:
         self._clock = PlaybackClock([0.0])
         self.frame = 0
         self._drawn: tuple[Opened, int, Parameters] | None = None
+        self._history = ParameterHistory()
         self._scene = Scene(client, self.settings)
         self._pair: Pair | None = None
         self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
@@ -151,12 +153,21 @@ class Workbench:
 
     def change_parameters(self, values: Mapping[str, Any]) -> None:
         """Change some parameters, {name: value}; ParameterError where one is out of range."""
-        self.parameters = replace(self.parameters, **values)
+        before, self.parameters = self.parameters, replace(self.parameters, **values)
+        self._history.note(before, self.parameters, time.monotonic())
 
     def set_parameters(self, parameters: Parameters) -> None:
         """Take other parameters, and show them in the page's controls."""
-        self.parameters = parameters
+        before, self.parameters = self.parameters, parameters
+        self._history.note(before, parameters, time.monotonic())
         self.page.parameters.replace(parameters)
+
+    def undo_parameters(self, changes: int) -> None:
+        """Undo this many changes of the parameters, or redo where it is negative."""
+        go = self._history.undo if changes > 0 else self._history.redo
+        for _ in range(abs(changes)):
+            self.parameters = go(self.parameters) or self.parameters
+        self.page.parameters.replace(self.parameters)
 
     def change_view(self, values: Mapping[str, Any]) -> None:
         """Change some settings of the drawing, {name: value}."""

@@ -1,16 +1,15 @@
-"""The estimator's parameters: sliders for the paper's four, the others folded away."""
+"""The estimator's parameters: sliders for the paper's four, the method, the others folded."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 import viser
 
 from app.mailbox import Wish
 from app.panel import Desk, Panel
-from app.parameter_files import to_text
-from app.wishes import ChangeParameters, LatestWins, ResetParameters
+from app.wishes import ChangeParameters, ResetParameters
 from estimator import PARAMETER_INFO, Parameters, method_names
 
 if TYPE_CHECKING:
@@ -24,13 +23,18 @@ _OPTIONAL = {name for name, default in _DEFAULTS.items() if default is None}
 
 
 @dataclass(frozen=True)
-class SaveParameters(LatestWins):
-    """Save the parameters as a file that the command line takes."""
+class UndoParameters:
+    """Undo this many changes, or redo where it is negative."""
+
+    changes: int
+
+    def after(self, earlier: Self) -> Self:
+        """Both."""
+        return type(self)(earlier.changes + self.changes)
 
     def fulfil(self, workbench: "Workbench") -> None:
-        """Send the file to the browser."""
-        content = to_text(workbench.parameters).encode()
-        workbench.client.send_file_download("parameters.json", content, save_immediately=True)
+        """Go through the history."""
+        workbench.undo_parameters(self.changes)
 
 
 class ParametersPanel(Panel):
@@ -40,33 +44,37 @@ class ParametersPanel(Panel):
         gui, parameters, post = desk.client.gui, desk.parameters, desk.post
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()
+        self._sliders = [name for name, info in PARAMETER_INFO.items() if info.slider]
         with gui.add_folder("Parameters"):
-            for name in _DEFAULTS:
-                if PARAMETER_INFO[name].slider:
-                    self._controls[name] = _add_slider(gui, name, getattr(parameters, name))
+            for name in self._sliders:
+                self._controls[name] = _add_slider(gui, name, getattr(parameters, name))
+            self._controls["method"] = _add_field(gui, "method", parameters.method)
             self._refusal = gui.add_html("", visible=False)
             with gui.add_folder("More parameters", expand_by_default=False):
                 for name in _DEFAULTS:
-                    if not PARAMETER_INFO[name].slider:
+                    if name not in self._controls:
                         self._controls[name] = _add_field(gui, name, getattr(parameters, name))
-                save = gui.add_button(
-                    "Save parameters",
-                    icon=viser.Icon.DOWNLOAD,
-                    color="gray",
-                    hint="A file for --parameters of the command line.",
-                )
-            reset = gui.add_button("Reset parameters", icon=viser.Icon.RESTORE, color="gray")
+            resets = {PARAMETER_INFO[name].symbol: [name] for name in self._sliders}
+            resets["All"] = [*_DEFAULTS]
+            reset = gui.add_button_group(
+                "Reset", tuple(resets), hint="To what the app was started with."
+            )
+            history = gui.add_button_group(
+                "History", ("Undo", "Redo"), hint="Of the parameters. Keys: Ctrl+Z, Ctrl+Shift+Z."
+            )
 
         for name in self._controls:
             self._connect(name, post)
 
-        @save.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(SaveParameters())
-
         @reset.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(ResetParameters())
+            post(ResetParameters(frozenset(resets[reset.value])))
+
+        @history.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(UndoParameters(1 if history.value == "Undo" else -1))
+
+        _add_commands(gui, post)
 
     def replace(self, parameters: Parameters) -> None:
         """Show these parameters, and that nothing is refused."""
@@ -79,8 +87,10 @@ class ParametersPanel(Panel):
         Only controls whose value was refused are set: a person may be moving the others.
         """
         for name in self._refused:
-            value = getattr(parameters, name)
-            self._controls[name].value = _UNSET if value is None else value
+            value, control = getattr(parameters, name), self._controls[name]
+            if name in self._sliders and value > control.max:
+                control.max = value  # a file or a flag may ask for more than the slider offers
+            control.value = _UNSET if value is None else value
         self._refused.clear()
         self._refusal.visible = False
 
@@ -101,6 +111,25 @@ class ParametersPanel(Panel):
                 value = self._controls[name].value
                 unset = name in _OPTIONAL and value == _UNSET
                 post(ChangeParameters({name: None if unset else value}))
+
+
+def _add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
+    undo = gui.add_command("Undo parameters", hotkey="Z", modifier="cmd/ctrl")
+    redo = gui.add_command("Redo parameters", hotkey="Z", modifier="cmd/ctrl+shift")
+    reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
+
+    # Coroutines run at once, so that keys are taken in their order.
+    @undo.on_trigger
+    async def _(_: viser.CommandEvent) -> None:
+        post(UndoParameters(1))
+
+    @redo.on_trigger
+    async def _(_: viser.CommandEvent) -> None:
+        post(UndoParameters(-1))
+
+    @reset.on_trigger
+    async def _(_: viser.CommandEvent) -> None:
+        post(ResetParameters(frozenset(_DEFAULTS)))
 
 
 def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN401 (viser's handles)
@@ -144,5 +173,6 @@ def _add_field(gui: viser.GuiApi, name: str, value: Any) -> Any:  # noqa: ANN401
 
 
 def _hint(name: str) -> str:
-    info = PARAMETER_INFO[name]
-    return f"{info.text} [{info.unit}]" if info.unit else info.text
+    info, default = PARAMETER_INFO[name], _DEFAULTS[name]
+    said = f"{info.text} [{info.unit}]" if info.unit else info.text
+    return said if default is None or isinstance(default, bool) else f"{said}; default {default}"

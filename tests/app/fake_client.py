@@ -98,7 +98,10 @@ class FakeClient:
 
     def change(self, label: str, value: Any) -> None:
         """What a browser sends when a person changes a control, on viser's own way."""
-        message = GuiUpdateMessage(self.control(label)._impl.uuid, {"value": value})
+        self._send(self.control(label), value)
+
+    def _send(self, control: Any, value: Any) -> None:
+        message = GuiUpdateMessage(control._impl.uuid, {"value": value})
         asyncio.run_coroutine_threadsafe(
             self.gui._handle_gui_updates(cast(Any, self.client_id), message),
             self.server.get_event_loop(),
@@ -107,6 +110,12 @@ class FakeClient:
     def press(self, label: str) -> None:
         """What a browser sends when a person presses a button."""
         self.change(label, True)
+
+    def press_group(self, option: str) -> None:
+        """What a browser sends when a person presses a button of a group without a label."""
+        groups = self.gui._gui_input_handle_from_uuid.values()
+        (found,) = [g for g in groups if option in getattr(g, "options", ()) and not g.label]
+        self._send(found, option)
 
     def trigger(self, label: str) -> None:
         """What a browser sends when a person chooses a command or presses its key."""

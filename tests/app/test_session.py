@@ -185,7 +185,7 @@ def test_reset_brings_the_defaults_back(session, client, runs):
     client.change("δ", 0.3)
     client.change("n", 4)
     until(lambda: runs.parameters[-1] == Parameters(n=4, delta=0.3))
-    client.press("Reset parameters")
+    client.change("Reset", "All")
     until(lambda: client.control("δ").value == 0.04)
     assert client.control("n").value == 8
 
@@ -275,7 +275,7 @@ def test_a_screenshot_is_named_after_recording_and_frame(session, client):
 
 def test_saved_parameters_are_those_in_use(session, client):
     client.change("δ", 0.3)
-    client.press("Save parameters")
+    client.press("Save as a file")
     until(lambda: client.downloads)
     name, content = client.downloads[0]
     assert name == "parameters.json"

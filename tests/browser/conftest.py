@@ -61,7 +61,10 @@ def recordings_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def server(recordings_folder: Path) -> Iterator[Server]:
+def server(
+    recordings_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Server]:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     library = Library([recordings_folder], open_recording)
     server = Server(Shared(library, Estimates(), Reloads(), Parameters()), "127.0.0.1", 0)
     yield server

@@ -1,0 +1,109 @@
+"""What the controls of parameters and presets do in a session."""
+
+import json
+import time
+
+import pytest
+
+from app.estimates import Estimates
+from app.library import Library
+from app.panels.presets import OpenParameters
+from app.reloads import Reloads
+from app.session import Session, Shared
+from estimator import Parameters
+from tests.app.fake_recordings import fake_recording
+
+
+def until(condition, timeout=10.0):
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def session(client, tmp_path):
+    (tmp_path / "a.mcap").touch()
+    library = Library([tmp_path], lambda path: fake_recording(name=path.stem))
+    session = Session(client, Shared(library, Estimates(), Reloads(), Parameters()))
+    until(lambda: "Moving" in client.text())
+    yield session
+    session.close()
+    session.join(10)
+
+
+def shows(client, label, value):
+    return lambda: client.control(label).value == value
+
+
+def change(client, label, value):
+    """Change a parameter, and wait until it is taken: a refused one would come back."""
+    client.change(label, value)
+    time.sleep(0.2)
+
+
+def test_undo_and_redo(session, client):
+    change(client, "δ", 0.3)
+    change(client, "n", 4)
+    client.trigger("Undo parameters")
+    until(shows(client, "n", 8))
+    assert client.control("δ").value == 0.3
+    client.change("History", "Undo")
+    until(shows(client, "δ", 0.04))
+    client.trigger("Redo parameters")
+    client.trigger("Redo parameters")
+    until(shows(client, "n", 4))
+    until(shows(client, "δ", 0.3))
+
+
+def test_one_parameter_is_reset_and_the_others_stay(session, client):
+    change(client, "δ", 0.3)
+    change(client, "n", 4)
+    client.change("Reset", "δ")
+    until(shows(client, "δ", 0.04))
+    assert client.control("n").value == 4
+    client.trigger("Undo parameters")
+    until(shows(client, "δ", 0.3))
+
+
+def test_a_preset_is_saved_loaded_and_deleted(session, client):
+    change(client, "δ", 0.3)
+    client.change("Name", "loose ")
+    client.press_group("Save")
+    until(shows(client, "Preset", "loose"))
+    change(client, "δ", 0.1)
+    client.press_group("Load")
+    until(shows(client, "δ", 0.3))
+    client.press_group("Delete")
+    until(shows(client, "Preset", "(none saved yet)"))
+
+
+def test_a_bad_name_is_told_and_the_session_goes_on(session, client):
+    client.change("Name", "../../evil")
+    client.press_group("Save")
+    until(lambda: any("A preset's name is made of" in n for n in client.notifications))
+    change(client, "δ", 0.3)
+    client.trigger("Undo parameters")
+    until(shows(client, "δ", 0.04))
+
+
+def test_a_file_is_opened_also_beyond_the_sliders(session, client):
+    session._mailbox.post(OpenParameters("p.json", json.dumps({"n_min": 900, "n": 3}).encode()))
+    until(shows(client, "N_min", 900))
+    assert client.control("N_min").max == 900
+    assert client.control("n").value == 3
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (b"{", "p.json is not JSON"),
+        (b'{"gamma": 7}', "gamma must be between 0 and 1"),
+        (b"\xff\xfe", "p.json is no text"),
+        (b" " * 200_000, "p.json is too large"),
+    ],
+)
+def test_a_file_that_cannot_be_used_is_told(session, client, content, sentence):
+    session._mailbox.post(OpenParameters("p.json", content))
+    until(lambda: any(sentence in n for n in client.notifications))
+    assert client.control("γ").value == 0.7
