@@ -7,6 +7,7 @@ import viser
 
 from app.errors import InputError
 from app.guarded_server import GuardedServer
+from app.memory_release import MemoryRelease
 from app.page import TITLE
 from app.session import Session, Shared
 from app.theme import dress
@@ -31,6 +32,7 @@ class Server:
         # A client may leave while its session is drawing: nobody misses what is not delivered.
         warnings.filterwarnings("ignore", message=r"Queued a .* on a closed connection")
         self._sessions: dict[int, Session] = {}
+        self._memory = MemoryRelease()
         self._server = GuardedServer(host, port, label=TITLE)
         self.host, self.port = host, self._server.get_port()
         dress(self._server.gui, dark=False)
@@ -47,6 +49,7 @@ class Server:
         async def _(client: viser.ClientHandle) -> None:
             if session := self._sessions.pop(client.client_id, None):
                 session.close()
+                self._memory.soon()
 
     @property
     def address(self) -> str:
@@ -61,6 +64,7 @@ class Server:
             session.close()
         for session in sessions:
             session.join(timeout=5.0)
+        self._memory.close()
         self._server.stop()
 
 
