@@ -8,6 +8,7 @@ from app.library import Opened
 from app.page_script import set_up_keys
 from app.panel import Desk, Panel, Shown
 from app.panels.explain import ExplainPanel
+from app.panels.legend import LegendPanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.presets import PresetsPanel
@@ -41,6 +42,7 @@ class Page:
             ExplainPanel(desk),
             ViewPanel(desk),
             ScreenshotPanel(desk),
+            LegendPanel(desk),
         ]
 
     def open(self, opened: Opened) -> None:

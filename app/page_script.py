@@ -20,6 +20,9 @@ if (!window.tofscopeKeys) {
 }
 """
 
+_HEIGHT = "canvas-height"
+_CANVAS = "document.querySelector('canvas[data-engine]')"
+
 
 def set_up_keys(client: viser.ClientHandle) -> None:
     """Leave keys to a slider that has the focus, and left and right to playback."""
@@ -29,3 +32,16 @@ def set_up_keys(client: viser.ClientHandle) -> None:
 def run(client: viser.ClientHandle, script: str) -> None:
     """Run a script in the page, after whatever was sent before."""
     client.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
+
+
+def canvas_height(client: viser.ClientHandle) -> float:
+    """Height of the scene in the page in CSS pixels, which viser does not tell.
+
+    What it tells are a screen's pixels: more on a fine screen, fewer on a slow machine.
+    """
+    run(client, f"localStorage.setItem('viser-user:{_HEIGHT}', {_CANVAS}.clientHeight)")
+    try:
+        told = client.local_storage.get_item(_HEIGHT, timeout=5.0)
+        return float(told) if told else float(client.camera.image_height)
+    except (RuntimeError, TimeoutError, ValueError):
+        return float(client.camera.image_height)

@@ -9,6 +9,7 @@ from app.estimates import Pair
 from app.library import Entry, Opened
 from app.mailbox import Wish
 from app.playback_clock import Playback
+from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
 from app.timeline import Timeline
 from estimator import Parameters
@@ -42,6 +43,7 @@ class Shown:
         frame: k.
         parameters: of the estimate.
         settings: of the drawing.
+        legend: what its colours mean.
         pair: of the frame, None where it could not be drawn.
         picked: index of the picked cluster in the pair's flow, None where none is.
         playing: whether time goes on.
@@ -54,6 +56,7 @@ class Shown:
     frame: int
     parameters: Parameters
     settings: ViewSettings
+    legend: Legend
     pair: Pair | None
     picked: int | None
     playing: bool

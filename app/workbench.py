@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from app.errors import InputError
 from app.estimates import Estimates, Pair
@@ -18,6 +19,8 @@ from app.panel import Desk, Shown
 from app.parameter_history import ParameterHistory
 from app.playback_clock import Playback, PlaybackClock
 from app.reloads import Left
+from app.scene.legend import Legend
+from app.scene.photograph import photograph
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from app.selection import Selection, cluster_at, cluster_of
@@ -76,6 +79,11 @@ class Workbench:
     def playback(self) -> Playback:
         """How the recording is played."""
         return self._clock.playback
+
+    @property
+    def legend(self) -> Legend:
+        """What the colours of the scene mean."""
+        return self._scene.legend
 
     def wait(self) -> float | None:
         """Seconds until a frame is due, None where none will be."""
@@ -191,6 +199,17 @@ class Workbench:
         if self._pair is not None:
             self._scene.place_camera(self._pair, view, self._aspect)
 
+    def photograph(self, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
+        """Pixels (height, width, 4) of a view by its name, or of what the page shows for None.
+
+        Raises:
+            RuntimeError: the browser has gone, or there is nothing to see.
+            TimeoutError: it gives no picture, such as one whose tab is in the background.
+        """
+        if self._pair is None:
+            raise RuntimeError("There is nothing to see.")
+        return photograph(self.client, self._scene, self._pair, view, width, height)
+
     def focus(self) -> None:
         """Draw in sizes that suit where the camera is now."""
         self._scene.focus()
@@ -216,6 +235,7 @@ class Workbench:
             frame=self.frame,
             parameters=self.parameters,
             settings=self.settings,
+            legend=self.legend,
             pair=self._pair,
             picked=self._picked,
             playing=self._clock.playing,
@@ -237,10 +257,7 @@ class Workbench:
             self._scene.show(pair)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
-                self._scene.place_camera(pair)
-
                 self._scene.place_camera(pair, aspect=self._aspect)
-        self._pair = pair
         self._drawn = (opened, frame, parameters)
         if problem is not None:
             raise problem

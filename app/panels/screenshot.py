@@ -1,81 +1,118 @@
-"""A picture of the scene as a PNG file in the browser's downloads."""
+"""Pictures of the scene as PNG files in the browser's downloads."""
 
-import io
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
 import viser
-from numpy.typing import NDArray
-from PIL import Image
 
+from app.captions import caption
 from app.errors import InputError
+from app.file_names import safe
 from app.panel import Desk, Panel
+from app.pictures import finished, png, side_by_side
+from app.scene.views import THREE_D, TOP
 from app.wishes import LatestWins
 
 if TYPE_CHECKING:
     from app.workbench import Workbench
 
-_TIMEOUT = 20.0  # seconds; a tab in the background never renders
+_AS_SHOWN = "As on the screen"
+_SIZES = {"1280 x 720": (1280, 720), "1600 x 900": (1600, 900), "1920 x 1080": (1920, 1080)}
+_SCALES = {"1x": 1, "2x": 2, "3x": 3}
+_BACKGROUNDS = ("White", "Transparent")
 
 
 @dataclass(frozen=True)
 class TakeScreenshot(LatestWins):
-    """Save what the page shows as a PNG file."""
+    """Save views as one PNG file, side by side.
 
-    panel: "ScreenshotPanel"
+    Attributes:
+        views: their names; None is what the page shows.
+        size: width and height of each in pixels; None is that of the scene on the screen.
+        scale: what both are multiplied with.
+        transparent: whether there is no background.
+        legend: whether a legend is drawn.
+    """
+
+    views: tuple[str | None, ...]
+    size: tuple[int, int] | None
+    scale: int
+    transparent: bool
+    legend: bool
 
     def fulfil(self, workbench: "Workbench") -> None:
-        """Take it, where there is something to take."""
-        if workbench.opened is not None:
-            self.panel.take(workbench.opened.recording.name, workbench.frame)
-
-
-class ScreenshotPanel(Panel):
-    """A button that saves what the scene shows."""
-
-    def __init__(self, desk: Desk) -> None:
-        self._client = desk.client
-        button = self._client.gui.add_button(
-            "Save screenshot", icon=viser.Icon.CAMERA, hint="PNG of the scene"
-        )
-
-        @button.on_click
-        def _(_: viser.GuiEvent) -> None:
-            desk.post(TakeScreenshot(self))
-
-    def take(self, recording: str, frame: int) -> None:
-        """Render, and send the file to the browser; it is named after recording and frame.
+        """Take it, where there is something to take, and send the file to the browser.
 
         Raises:
             InputError: the browser gave no picture.
         """
-        camera = self._client.camera
+        if workbench.opened is None:
+            return
+        camera = workbench.client.camera
+        size = self.size or (camera.image_width, camera.image_height)
+        width, height = (self.scale * pixels for pixels in size)
         try:
-            pixels = self._client.get_render(
-                camera.image_height, camera.image_width, transport_format="png", timeout=_TIMEOUT
-            )
+            taken = [workbench.photograph(view, width, height) for view in self.views]
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
-                f"The browser gave no picture within {_TIMEOUT:.0f} s; "
-                "bring its tab to the front and try again."
+                "The browser gave no picture; bring its tab to the front and try again, "
+                "or choose a smaller size."
             ) from error
-        self._client.send_file_download(
-            file_name(recording, frame), on_white(pixels), save_immediately=True
+        legends = [workbench.legend if self.legend else None] + [None] * len(taken)
+        pictures = [
+            finished(pixels, transparent=self.transparent, legend=legend)
+            for pixels, legend in zip(taken, legends, strict=False)
+        ]
+        recording = workbench.opened.recording
+        said = caption(recording, workbench.parameters, workbench.frame)
+        workbench.client.send_file_download(
+            file_name(recording.name, workbench.frame, self.views),
+            png(side_by_side(pictures), said),
+            save_immediately=True,
         )
 
 
-def file_name(recording: str, frame: int) -> str:
+class ScreenshotPanel(Panel):
+    """Buttons that save what the scene shows, or the two views that papers show."""
+
+    def __init__(self, desk: Desk) -> None:
+        gui = desk.client.gui
+        shown = gui.add_button("Save screenshot", icon=viser.Icon.CAMERA, hint="PNG of the scene")
+        both = gui.add_button(
+            "Save 3D and top view",
+            icon=viser.Icon.COLUMNS_2,
+            color="gray",
+            hint="Both views side by side in one PNG, as papers show them",
+        )
+        with gui.add_folder("Picture", expand_by_default=False):
+            size = gui.add_dropdown("Size", (_AS_SHOWN, *_SIZES), hint="Of one view, in pixels.")
+            scale = gui.add_dropdown(
+                "Scale", tuple(_SCALES), hint="Pixels for each pixel of the size, for print."
+            )
+            background = gui.add_dropdown("Background", _BACKGROUNDS)
+            legend = gui.add_checkbox("With legend", True)
+
+        def take(*views: str | None) -> None:
+            desk.post(
+                TakeScreenshot(
+                    views,
+                    _SIZES.get(size.value),
+                    _SCALES.get(scale.value, 1),
+                    background.value == "Transparent",
+                    legend.value,
+                )
+            )
+
+        @shown.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            take(None)
+
+        @both.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            take(THREE_D, TOP)
+
+
+def file_name(recording: str, frame: int, views: tuple[str | None, ...] = (None,)) -> str:
     """A name that every file system takes."""
-    return f"{re.sub(r'[^A-Za-z0-9._-]+', '_', recording)}_frame_{frame:04d}.png"
-
-
-def on_white(pixels: NDArray[np.uint8]) -> bytes:
-    """PNG of an image (H, W, 4) whose transparent background becomes white."""
-    picture = Image.fromarray(pixels)
-    white = Image.new("RGBA", picture.size, "white")
-    white.alpha_composite(picture.convert("RGBA"))
-    data = io.BytesIO()
-    white.convert("RGB").save(data, "PNG", optimize=True)
-    return data.getvalue()
+    names = "".join(f"_{safe(view).lower()}" for view in views if view)
+    return f"{safe(recording)}_frame_{frame:04d}{names}.png"

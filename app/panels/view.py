@@ -75,9 +75,11 @@ class ViewPanel(Panel):
             hint="What the colour of an arrow says; the legend says which is which.",
         )
         dark = self._gui.add_checkbox("Dark", self._settings.dark)
+        legend = self._gui.add_checkbox("Legend", self._settings.legend)
         self._connect(colours, "colours", PALETTES)
         self._connect(arrows, "arrow_colours", ARROW_COLOURS)
         self._connect(dark, "dark", (False, True))
+        self._connect(legend, "legend", (False, True))
 
     def _add_sizes(self) -> None:
         arrow_scale = self._gui.add_slider(

@@ -1,5 +1,8 @@
 """The two clouds and the arrows of the flow."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -26,6 +29,7 @@ class CloudsView:
         self._target = _add_cloud(scene, TARGET_NODE)
         self._source = _add_cloud(scene, SOURCE_NODE)
         self._ghost = _add_cloud(scene, GHOST_NODE)
+        self._all = (self._target, self._source, self._ghost)
         self._flow = scene.add_arrows(FLOW_NODE, _NONE, palette.flow)
         self._truth = scene.add_arrows(TRUTH_NODE, _NONE, palette.truth)
         self._height = 2.5
@@ -99,6 +103,23 @@ class CloudsView:
         self._truth.shaft_radius = _TRUTH_SHAFT * height
         for node, width in ((self._flow, _HEAD_WIDTH), (self._truth, _TRUTH_HEAD_WIDTH)):
             _fit_head(node, width, _HEAD * height)
+
+    @contextmanager
+    def cleared(
+        self, eye: NDArray[np.float64], forward: NDArray[np.float64], near: float
+    ) -> Iterator[None]:
+        """Without the points nearer than `near` metres to an eye (3,) that looks forward (3,)."""
+        kept = [(cloud, cloud.points, cloud.colors) for cloud in self._all]
+        for cloud, points, colours in kept:
+            drawn = (points - eye) @ forward > near
+            cloud.points = points[drawn]
+            if colours.ndim == 2:
+                cloud.colors = colours[drawn]
+        try:
+            yield
+        finally:
+            for cloud, points, colours in kept:
+                cloud.points, cloud.colors = points, colours
 
     def _draw(
         self, node: viser.ArrowsHandle, segments: NDArray[np.float64], head_width: float

@@ -1,5 +1,8 @@
 """What a person sees: robot, sensors, clouds and flow of one frame."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +18,7 @@ from app.scene.clouds_view import (
 )
 from app.scene.first_view import View
 from app.scene.flow_colours import arrow_colours, source_colours, speed_limit
+from app.scene.legend import Legend, legend
 from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.selection_view import SelectionView
@@ -95,13 +99,43 @@ class Scene:
             aspect: width by height of the picture.
         """
         camera = self._canvas.camera
-        film = Film(WIDE_FOV if view == ROBOT else FOV, aspect)
-        before = View(np.asarray(camera.position), np.asarray(camera.look_at))
-        placed = named_view(view, pair, self._turn, film, before)
-        camera.fov = film.fov
+        placed, camera.fov = self.view(pair, view, aspect)
         camera.position = placed.position
         camera.look_at = placed.look_at
         self.focus()
+
+    def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
+        """Where a camera stands for the view of this name, and its vertical field of view, rad."""
+        camera = self._canvas.camera
+        film = Film(WIDE_FOV if name == ROBOT else FOV, aspect)
+        before = View(np.asarray(camera.position), np.asarray(camera.look_at))
+        return named_view(name, pair, self._turn, film, before), film.fov
+
+    @property
+    def legend(self) -> Legend:
+        """What the colours mean."""
+        return legend(self._shown, self._settings, self._speed_limit)
+
+    @contextmanager
+    def posed(self, view: View, fov: float, larger: float) -> Iterator[None]:
+        """Draw in sizes that suit a picture, and as before afterwards.
+
+        Args:
+            view: where it is taken from.
+            fov: vertical field of view, rad.
+            larger: how many times larger points have to be told to the page.
+        """
+        way = view.look_at - view.position
+        lens = Lens(float(np.linalg.norm(way)), fov)
+        self._clouds.fit(lens.height, larger * self._settings.point_size / _REFERENCE_HEIGHT)
+        try:
+            eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
+            # A picture that is asked for has no near plane of its own.
+            with self._clouds.cleared(eye, forward / np.linalg.norm(forward), lens.near):
+                yield
+        finally:
+            if self._lens:
+                self._fit(self._lens)
 
     def focus(self) -> None:
         """Draw in sizes that suit where the camera is; at once, or when it has moved."""

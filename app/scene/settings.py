@@ -37,6 +37,7 @@ class ViewSettings:
         arrow_colours: what the colour of an arrow says, one of `ARROW_COLOURS`.
         colours: name of the palette.
         dark: whether the page is dark.
+        legend: whether a legend lies over the scene.
         layers: those that are shown.
     """
 
@@ -45,6 +46,7 @@ class ViewSettings:
     arrow_colours: str = ONE_COLOUR
     colours: str = PAPER
     dark: bool = False
+    legend: bool = True
     layers: frozenset[str] = frozenset(LAYERS)
 
     @property

@@ -6,6 +6,7 @@ from app.estimates import Estimates
 from app.library import Opened
 from app.panel import Desk, Shown
 from app.playback_clock import Playback
+from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
@@ -22,6 +23,7 @@ def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None)
         frame=frame,
         parameters=parameters,
         settings=ViewSettings(),
+        legend=Legend(),
         pair=Estimates().estimated(opened, frame, parameters),
         picked=None,
         playing=False,

@@ -1,9 +1,11 @@
+import io
 import threading
 import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import app.estimates
 from app.estimates import Estimates
@@ -271,6 +273,33 @@ def test_a_screenshot_is_named_after_recording_and_frame(session, client):
     name, content = client.downloads[0]
     assert name == "a_frame_0024.png"
     assert content.startswith(b"\x89PNG")
+
+
+def test_both_views_of_a_size_are_one_picture_that_says_what_it_shows(session, client):
+    client.change("Size", "1280 x 720")
+    client.change("Scale", "2x")
+    asked = []
+
+    def render(height, width, **_):
+        asked.append((width, height, client.node(f"{FIXED}/source").point_size))
+        return np.zeros((height, width, 4), dtype=np.uint8)
+
+    client.get_render = render
+    before = client.node(f"{FIXED}/source").point_size
+    client.press("Save 3D and top view")
+    until(lambda: client.downloads)
+    name, content = client.downloads[0]
+    assert name == "a_frame_0024_3d_top.png"
+    picture = Image.open(io.BytesIO(content))
+    assert picture.size == (2 * 2560, 1440)
+    assert picture.info["Recording"] == "a"
+    assert picture.info["Frame"].startswith("24 of 39")
+    assert from_text(picture.info["Parameters"], name) == Parameters()
+    assert [a[:2] for a in asked if a[0] > 8] == [(2560, 1440)] * 2
+    # The window is 60 pixels high: in a larger picture points have to be as much larger.
+    assert asked[-1][2] > 10 * before
+    until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(before))
+    assert len(points(client, "source")) == 500
 
 
 def test_saved_parameters_are_those_in_use(session, client):

@@ -1,0 +1,36 @@
+"""What every exported file says of itself: which recording, which frame, estimated how."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from estimator import Parameters
+from recordings import Recording
+
+
+def caption(recording: Recording, parameters: Parameters, frame: int | None) -> Mapping[str, str]:
+    """{what: value}, in the order in which people read it.
+
+    Args:
+        recording: what was seen.
+        parameters: of the estimate; JSON that --parameters takes again.
+        frame: k, None where a file holds many.
+    """
+    said = {"Recording": recording.name, "Data": origin(recording)}
+    if frame is not None:
+        seconds = float(recording.stamps[frame] - recording.stamps[0])
+        said["Frame"] = f"{frame} of {len(recording) - 1}, at {seconds:.3f} s"
+    said["Fixed frame"] = recording.fixed_frame
+    said["Method"] = parameters.method
+    said["Parameters"] = json.dumps(asdict(parameters))
+    return said
+
+
+def origin(recording: Recording) -> str:
+    """Whether it was measured or simulated, and what was simulated."""
+    source = recording.provenance
+    if not recording.simulated:
+        return "recorded"
+    if source is None:
+        return "simulated"
+    return f"simulated: {source.scenario}, {source.speed:g} m/s, trial {source.trial}"

@@ -1,0 +1,100 @@
+"""What the colours of a drawing mean, in words."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.colours import Colour
+from app.estimates import Pair
+from app.scene.flow_colours import WHEEL
+from app.scene.settings import (
+    BY_CLUSTER,
+    BY_DIRECTION,
+    BY_SPEED,
+    STATIONARY,
+    UNASSIGNED,
+    ViewSettings,
+)
+from estimator import Label
+
+_MOST_CLUSTERS = 6
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A colour, and what has it."""
+
+    colour: Colour
+    text: str
+
+
+@dataclass(frozen=True)
+class Ramp:
+    """Colours from one value to another, with units."""
+
+    colours: tuple[Colour, ...]
+    low: str
+    high: str
+
+
+@dataclass(frozen=True)
+class Legend:
+    """What the colours of a drawing mean.
+
+    Attributes:
+        marks: from top to bottom.
+        ramp: of the arrows, None where their colours are marks.
+        dark: whether the drawing's background is dark.
+    """
+
+    marks: tuple[Mark, ...] = ()
+    ramp: Ramp | None = None
+    dark: bool = False
+
+
+def legend(pair: Pair | None, settings: ViewSettings, speed_limit: float) -> Legend:
+    """The legend of a pair as it is drawn.
+
+    Args:
+        pair: what is drawn, None where nothing is.
+        settings: of the drawing.
+        speed_limit: m/s at the end of the ramp of speeds.
+    """
+    palette, layers = settings.palette, settings.layers
+    if pair is None:
+        return Legend(dark=settings.dark)
+    marks: list[Mark] = []
+    if "Source" in layers and pair.source:
+        labelled = pair.flow is not None
+        moving = "Source: moving" if labelled else "Source"
+        marks.append(Mark(palette.source, moving))
+        if labelled and STATIONARY in layers:
+            marks.append(Mark(palette.stationary, "Source: stationary"))
+        if labelled and UNASSIGNED in layers:
+            marks.append(Mark(palette.unassigned, "Source: unassigned"))
+    if "Target" in layers:
+        marks.append(Mark(palette.target, "Target"))
+    ramp: Ramp | None = None
+    if "Flow" in layers and pair.flow is not None:
+        flow, ramp = _flow(pair, settings, speed_limit)
+        marks += flow
+    if "Truth" in layers and pair.object_velocity is not None:
+        marks.append(Mark(palette.truth, "True velocity"))
+    if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:
+        marks.append(Mark(palette.ghost, "Source moved by the truth"))
+    return Legend(tuple(marks), ramp, settings.dark)
+
+
+def _flow(pair: Pair, settings: ViewSettings, speed_limit: float) -> tuple[list[Mark], Ramp | None]:
+    assert pair.flow is not None
+    palette, length = settings.palette, f"way in {settings.arrow_scale:g} s"
+    if settings.arrow_colours == BY_SPEED:
+        return [], Ramp(palette.ramp, "Flow: 0", f"{max(speed_limit, 0.1):.1f} m/s")
+    if settings.arrow_colours == BY_DIRECTION:
+        # Seen from above; 0 is the x axis of the drawing.
+        return [], Ramp(WHEEL, "Flow: -180°", "180° from x")
+    if settings.arrow_colours == BY_CLUSTER:
+        moving = np.unique(pair.flow.cluster[pair.flow.label == Label.MOVING])
+        marks = [Mark(palette.category(i), f"Flow: cluster {i}") for i in map(int, moving)]
+        return marks[:_MOST_CLUSTERS], None
+    return [Mark(palette.flow, f"Flow: {length}")], None

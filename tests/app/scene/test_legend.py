@@ -1,0 +1,64 @@
+import pytest
+
+from app.estimates import Estimates
+from app.panels.legend import LegendPanel, html
+from app.scene.legend import Legend, Mark, legend
+from app.scene.settings import (
+    BY_CLUSTER,
+    BY_DIRECTION,
+    BY_SPEED,
+    LAYERS,
+    STATIONARY,
+    ViewSettings,
+)
+from estimator import Parameters
+from tests.app.fake_recordings import fake_opened
+from tests.app.fake_session import desk, shown
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return Estimates().estimated(fake_opened(), 20, Parameters())
+
+
+def texts(pair, settings, limit=0.3):
+    return [mark.text for mark in legend(pair, settings, limit).marks]
+
+
+def test_it_says_what_is_drawn(pair):
+    assert texts(pair, ViewSettings()) == [
+        "Source: moving",
+        "Source: stationary",
+        "Source: unassigned",
+        "Target",
+        "Flow: way in 0.5 s",
+        "True velocity",
+        "Source moved by the truth",
+    ]
+    fewer = frozenset(LAYERS) - {STATIONARY, "Target", "Flow"}
+    assert not {"Source: stationary", "Target", "Flow: way in 0.5 s"} & set(
+        texts(pair, ViewSettings(layers=fewer))
+    )
+
+
+def test_colours_of_arrows_are_said_with_units_and_limits(pair):
+    ramp = legend(pair, ViewSettings(arrow_colours=BY_SPEED), 0.3).ramp
+    assert ramp is not None
+    assert (ramp.low, ramp.high) == ("Flow: 0", "0.3 m/s")
+    ramp = legend(pair, ViewSettings(arrow_colours=BY_DIRECTION), 0.3).ramp
+    assert ramp is not None
+    assert ramp.low == "Flow: -180°"
+    (cluster,) = set(pair.flow.cluster[pair.flow.label == 2])
+    assert f"Flow: cluster {cluster}" in texts(pair, ViewSettings(arrow_colours=BY_CLUSTER))
+
+
+def test_nothing_drawn_needs_no_legend():
+    assert html(legend(None, ViewSettings(), 0.0)) == ""
+
+
+def test_the_panel_shows_what_the_session_says(client):
+    panel = LegendPanel(desk(client))
+    state = shown(fake_opened())
+    panel.show(type(state)(**{**vars(state), "legend": Legend((Mark((1, 2, 3), "a < b"),))}))
+    assert "a &lt; b" in client.text()
+    assert "#010203" in client.text()
