@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 FOV = np.radians(38.0)
 """Vertical field of view: narrow, so that what is near is not much larger than what is far."""
@@ -30,8 +31,14 @@ class Lens:
     @classmethod
     def of(cls, camera: viser.CameraHandle | viser.InitialCameraConfig) -> "Lens":
         """The lens of a camera."""
-        way = np.asarray(camera.look_at) - np.asarray(camera.position)
-        return cls(float(np.linalg.norm(way)), float(camera.fov))
+        return cls.between(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
+
+    @classmethod
+    def between(
+        cls, position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float
+    ) -> "Lens":
+        """The lens of a camera at one point (3,) that looks at another one (3,)."""
+        return cls(float(np.linalg.norm(look_at - position)), float(fov))
 
     @property
     def height(self) -> float:

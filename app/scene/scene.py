@@ -99,10 +99,12 @@ class Scene:
             aspect: width by height of the picture.
         """
         camera = self._canvas.camera
-        placed, camera.fov = self.view(pair, view, aspect)
+        placed, fov = self.view(pair, view, aspect)
+        camera.fov = fov
         camera.position = placed.position
         camera.look_at = placed.look_at
-        self.focus()
+        # The browser may be telling where its camera was, at this very moment.
+        self._focus(Lens.between(placed.position, placed.look_at, fov))
 
     def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
         """Where a camera stands for the view of this name, and its vertical field of view, rad."""
@@ -125,8 +127,7 @@ class Scene:
             fov: vertical field of view, rad.
             larger: how many times larger points have to be told to the page.
         """
-        way = view.look_at - view.position
-        lens = Lens(float(np.linalg.norm(way)), fov)
+        lens, way = Lens.between(view.position, view.look_at, fov), view.look_at - view.position
         self._clouds.fit(lens.height, larger * self._settings.point_size / _REFERENCE_HEIGHT)
         try:
             eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
@@ -139,7 +140,9 @@ class Scene:
 
     def focus(self) -> None:
         """Draw in sizes that suit where the camera is; at once, or when it has moved."""
-        lens = Lens.of(self._canvas.camera)
+        self._focus(Lens.of(self._canvas.camera))
+
+    def _focus(self, lens: Lens) -> None:
         if self._lens is None or not self._lens.similar(lens):
             self._lens = lens
             self._fit(lens)
