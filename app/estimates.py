@@ -127,6 +127,10 @@ class Estimates:
         key = (opened.key, k, parameters)
         return self._pairs.get(key, lambda: _estimate(self.pair(opened, k, parameters), parameters))
 
+    def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
+        """The pair (k-n, k) with its flow where it was estimated already."""
+        return self._pairs.known((opened.key, k, parameters))
+
     def timeline(self, opened: Opened, parameters: Parameters) -> Timeline:
         """The recording at a glance; where there is no truth, what the known estimates say."""
         outline = self._outlines.get(opened.key, lambda: Outline(opened.recording))

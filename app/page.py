@@ -7,6 +7,7 @@ import viser
 from app.library import Opened
 from app.page_script import set_up_keys
 from app.panel import Desk, Panel, Shown
+from app.panels.compare import ComparePanel
 from app.panels.explain import ExplainPanel
 from app.panels.legend import LegendPanel
 from app.panels.parameters import ParametersPanel
@@ -40,6 +41,7 @@ class Page:
             self.parameters,
             PresetsPanel(desk),
             ExplainPanel(desk),
+            ComparePanel(desk),
             ViewPanel(desk),
             ScreenshotPanel(desk),
             LegendPanel(desk),

@@ -22,6 +22,7 @@ class Palette:
         unassigned: of source points of which nothing is known.
         target: of the target.
         flow: of arrows, and of the field of view of a sensor that sees something moving.
+        second: of the arrows of the second of two estimates that are drawn together.
         truth: of the truth's arrow.
         ghost: of the place where the truth says that a source point is now.
         field_of_view: of the sensors that see nothing moving.
@@ -35,6 +36,7 @@ class Palette:
     unassigned: Colour
     target: Colour
     flow: Colour
+    second: Colour
     truth: Colour
     ghost: Colour
     field_of_view: Colour
@@ -82,6 +84,7 @@ _ALL = {
         unassigned=(158, 162, 170),
         target=TARGET,
         flow=FLOW,
+        second=(130, 50, 200),
         truth=TRUTH,
         ghost=(248, 178, 92),
         field_of_view=FIELD_OF_VIEW,
@@ -95,6 +98,7 @@ _ALL = {
         unassigned=(98, 102, 110),
         target=(84, 150, 255),
         flow=(60, 205, 100),
+        second=(190, 130, 255),
         truth=(255, 160, 40),
         ghost=(170, 110, 40),
         field_of_view=(150, 90, 90),
@@ -108,6 +112,7 @@ _ALL = {
         unassigned=(158, 162, 170),
         target=(0, 114, 178),
         flow=(0, 138, 100),
+        second=(95, 60, 20),
         truth=(170, 70, 130),
         ghost=(222, 170, 202),
         field_of_view=(160, 140, 130),
@@ -121,6 +126,7 @@ _ALL = {
         unassigned=(98, 102, 110),
         target=(86, 180, 233),
         flow=(40, 205, 155),
+        second=(240, 228, 66),
         truth=(225, 140, 190),
         ghost=(140, 84, 120),
         field_of_view=(130, 112, 100),

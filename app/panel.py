@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import viser
 
+from app.comparison import Comparison
 from app.estimates import Pair
 from app.library import Entry, Opened
 from app.mailbox import Wish
@@ -45,6 +46,8 @@ class Shown:
         settings: of the drawing.
         legend: what its colours mean.
         pair: of the frame, None where it could not be drawn.
+        comparison: with other parameters, None where there is none.
+        other: the pair with those other parameters, None unless its estimate is known.
         picked: index of the picked cluster in the pair's flow, None where none is.
         playing: whether time goes on.
         playback: how it is played.
@@ -58,6 +61,8 @@ class Shown:
     settings: ViewSettings
     legend: Legend
     pair: Pair | None
+    comparison: Comparison | None
+    other: Pair | None
     picked: int | None
     playing: bool
     playback: Playback

@@ -9,6 +9,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from app.comparison import A, B, Comparison
 from app.errors import InputError
 from app.estimates import Estimates, Pair
 from app.evaluation import counting_pairs
@@ -66,10 +67,12 @@ class Workbench:
         self.opened: Opened | None = None
         self._clock = PlaybackClock([0.0])
         self.frame = 0
-        self._drawn: tuple[Opened, int, Parameters] | None = None
-        self._history = ParameterHistory()
+        self.comparison: Comparison | None = None
+        self._drawn: tuple[Opened, int, Parameters, Comparison | None] | None = None
+        self._histories = {side: ParameterHistory() for side in (A, B)}
         self._scene = Scene(client, self.settings)
         self._pair: Pair | None = None
+        self._other: Pair | None = None
         self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
         self._selection = Selection()
         self._picked: int | None = None
@@ -94,10 +97,10 @@ class Workbench:
         if self.opened is None or self._mailbox.waits(OpenRecording):
             return  # nothing is computed for a recording that is about to be left
         self._follow_clock()
-        wanted = (self.opened, self.frame, self.parameters)
+        wanted = (self.opened, self.frame, self.parameters, self.comparison)
         try:
             if wanted != self._drawn:
-                self._draw_pair(*wanted)
+                self._draw_pairs(*wanted)
         finally:
             # Where a frame cannot be drawn, its number is shown all the more.
             self.page.show(self._shown(self.opened))
@@ -177,6 +180,13 @@ class Workbench:
             self.parameters = go(self.parameters) or self.parameters
         self.page.parameters.replace(self.parameters)
 
+    def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
+        """Compare otherwise, or not at all, and edit these parameters."""
+        self.comparison, self.parameters = comparison, edited
+        if comparison is None:
+            self._histories[B] = ParameterHistory()
+        self.page.parameters.replace(edited)
+
     def change_view(self, values: Mapping[str, Any]) -> None:
         """Change some settings of the drawing, {name: value}."""
         self.settings = replace(self.settings, **values)
@@ -224,6 +234,11 @@ class Workbench:
         return left
 
     @property
+    def _history(self) -> ParameterHistory:
+        """Of the parameters that are edited."""
+        return self._histories[self.comparison.edited if self.comparison else A]
+
+    @property
     def _aspect(self) -> float:
         """Width by height of the scene in the browser."""
         camera = self.client.camera
@@ -237,6 +252,8 @@ class Workbench:
             settings=self.settings,
             legend=self.legend,
             pair=self._pair,
+            comparison=self.comparison,
+            other=self._other,
             picked=self._picked,
             playing=self._clock.playing,
             playback=self.playback,
@@ -244,23 +261,36 @@ class Workbench:
             seeking=self._mailbox.waits(Seek),
         )
 
-    def _draw_pair(self, opened: Opened, frame: int, parameters: Parameters) -> None:
-        problem: Exception | None = None
-        self._pair = None
-        try:
-            pair = self._estimates.estimated(opened, frame, parameters)
-        except Exception as error:
-            # The clouds are shown even where the estimator fails on them.
-            problem, pair = error, self._estimates.pair(opened, frame, parameters)
-        self._pair = pair
+    def _draw_pairs(
+        self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
+    ) -> None:
+        self._pair = self._other = None
+        pair, problem = self._estimated(opened, frame, parameters)
+        self._pair, first, second = pair, pair, None
+        if comparison is not None and comparison.both:
+            self._other, failed = self._estimated(opened, frame, comparison.other)
+            first, second = comparison.in_order(pair, self._other)
+            problem = problem or failed
+        elif comparison is not None:
+            # What is not shown is not estimated, but said where it is known.
+            self._other = self._estimates.known(opened, frame, comparison.other)
         with self.client.atomic():
-            self._scene.show(pair)
+            self._scene.show(first, second)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
                 self._scene.place_camera(pair, aspect=self._aspect)
-        self._drawn = (opened, frame, parameters)
+        self._drawn = (opened, frame, parameters, comparison)
         if problem is not None:
             raise problem
+
+    def _estimated(
+        self, opened: Opened, frame: int, parameters: Parameters
+    ) -> tuple[Pair, Exception | None]:
+        """A pair; without its flow where the estimator fails on it, and what went wrong."""
+        try:
+            return self._estimates.estimated(opened, frame, parameters), None
+        except Exception as error:
+            return self._estimates.pair(opened, frame, parameters), error
 
     def _mark(self) -> None:
         if self._pair is not None:

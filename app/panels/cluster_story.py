@@ -1,10 +1,11 @@
 """Clusters in words and tables: all of them in short, one of them round by round."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from html import escape
 
 from app.colours import FLOW, PICKED, css
+from app.panels.tables import framed, signed, table
 from estimator import ClusterResult, IcpRound, Label, Parameters
 
 FILLS: dict[Label, str] = {
@@ -13,11 +14,6 @@ FILLS: dict[Label, str] = {
     Label.UNASSIGNED: 'fill="currentColor" fill-opacity="0.2"',
 }
 """{label: how a bar or a swatch of it is filled}, on light and on dark."""
-
-
-def framed(content: str) -> str:
-    """HTML in the panel's small letters."""
-    return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
 
 
 def cluster_table(clusters: Sequence[ClusterResult], picked: int | None) -> str:
@@ -37,7 +33,7 @@ def cluster_table(clusters: Sequence[ClusterResult], picked: int | None) -> str:
         for cluster in clusters
     ]
     return framed(
-        f'<div style="max-height: 12em; overflow-y: auto">{_table(head, rows)}</div>'
+        f'<div style="max-height: 12em; overflow-y: auto">{table(head, rows)}</div>'
         if rows
         else "No clusters were found in this pair."
     )
@@ -54,7 +50,6 @@ def story(cluster: ClusterResult, parameters: Parameters) -> str:
         for number, turn in enumerate(cluster.rounds, start=1)
     ]
     head = ("Round", "Points", "Fitness", "Displ.", "Removed")
-    table = _table(head, rows) if rows else ""
     note = (
         '<div style="opacity: 0.65">Points: source / target. Beneath: what it is above (+) or '
         "below (−) N_min, γ and δ.</div>"
@@ -62,7 +57,7 @@ def story(cluster: ClusterResult, parameters: Parameters) -> str:
         else ""
     )
     return framed(
-        f"<div>{title}</div>{table}{note}"
+        f"<div>{title}</div>{table(head, rows) if rows else ''}{note}"
         f'<div style="margin: 0.3em 0">{swatch(cluster.label)}{escape(cluster.reason)}</div>'
     )
 
@@ -102,29 +97,9 @@ def _round_cells(
 
 
 def _with_margin(value: str, margin: float, form: str) -> str:
-    signed = form.format(margin).replace("-", "−")
-    return f'{value}<div style="opacity: 0.65; font-size: 0.9em">{signed}</div>'
+    small = "opacity: 0.65; font-size: 0.9em"
+    return f'{value}<div style="{small}">{signed(margin, form)}</div>'
 
 
 def _number(value: float, form: str) -> str:
     return "–" if math.isnan(value) else form.format(value)
-
-
-def _table(head: Sequence[str], rows: Iterable[tuple[bool, Sequence[str]]]) -> str:
-    """A table of numbers, whose cells are HTML; rows that are True are marked."""
-    cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
-    first = "".join(f"<th {cell}>{name}</th>" for name in head)
-    body = "".join(
-        f'<tr style="border-top: 1px solid rgba(128, 128, 128, 0.3){_mark(marked)}">'
-        + "".join(f"<td {cell}>{content}</td>" for content in cells)
-        + "</tr>"
-        for marked, cells in rows
-    )
-    return (
-        '<table style="width: 100%; border-collapse: collapse; vertical-align: top; '
-        f'font-variant-numeric: tabular-nums"><tr>{first}</tr>{body}</table>'
-    )
-
-
-def _mark(marked: bool) -> str:
-    return f"; box-shadow: inset 3px 0 {css(PICKED)}; font-weight: bold" if marked else ""

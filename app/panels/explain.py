@@ -7,8 +7,9 @@ import viser
 
 from app.estimates import Pair
 from app.panel import Desk, Panel, Shown
-from app.panels.cluster_story import cluster_table, framed, legend, story
+from app.panels.cluster_story import cluster_table, legend, story
 from app.panels.histograms import Histogram, upper_limit
+from app.panels.tables import framed
 from app.selection import cluster_of
 from app.wishes import LatestWins
 from estimator import Parameters

@@ -13,6 +13,7 @@ from app.scene.stage import FIXED
 SOURCE_NODE = f"{FIXED}/source"
 TARGET_NODE = f"{FIXED}/target"
 FLOW_NODE = f"{FIXED}/flow"
+SECOND_FLOW_NODE = f"{FIXED}/second_flow"
 TRUTH_NODE = f"{FIXED}/truth"
 GHOST_NODE = f"{FIXED}/ghost"
 
@@ -31,6 +32,7 @@ class CloudsView:
         self._ghost = _add_cloud(scene, GHOST_NODE)
         self._all = (self._target, self._source, self._ghost)
         self._flow = scene.add_arrows(FLOW_NODE, _NONE, palette.flow)
+        self._second_flow = scene.add_arrows(SECOND_FLOW_NODE, _NONE, palette.second)
         self._truth = scene.add_arrows(TRUTH_NODE, _NONE, palette.truth)
         self._height = 2.5
         self.paint(palette)
@@ -39,6 +41,7 @@ class CloudsView:
         """Draw what is of one colour in the colours of a palette."""
         self._target.colors = np.array(palette.target, dtype=np.uint8)
         self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
+        self._second_flow.colors = np.array(palette.second, dtype=np.uint8)
         self._truth.colors = np.array(palette.truth, dtype=np.uint8)
 
     def show_source(self, points: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
@@ -73,6 +76,12 @@ class CloudsView:
         self._draw(self._flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
         self._flow.colors = colours[drawn]
 
+    def show_second_flow(
+        self, points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
+    ) -> None:
+        """Draw a second flow in a colour of its own; otherwise as `show_flow`."""
+        self._draw(self._second_flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
+
     def show_truth(
         self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float
     ) -> None:
@@ -99,10 +108,11 @@ class CloudsView:
         radius = point_size * height / 2
         self._source.point_size = self._target.point_size = radius
         self._ghost.point_size = 1.2 * radius
-        self._flow.shaft_radius = _SHAFT * height
+        self._flow.shaft_radius = self._second_flow.shaft_radius = _SHAFT * height
         self._truth.shaft_radius = _TRUTH_SHAFT * height
-        for node, width in ((self._flow, _HEAD_WIDTH), (self._truth, _TRUTH_HEAD_WIDTH)):
-            _fit_head(node, width, _HEAD * height)
+        for node in (self._flow, self._second_flow):
+            _fit_head(node, _HEAD_WIDTH, _HEAD * height)
+        _fit_head(self._truth, _TRUTH_HEAD_WIDTH, _HEAD * height)
 
     @contextmanager
     def cleared(

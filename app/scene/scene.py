@@ -11,6 +11,7 @@ from app.scene.canvas import Canvas
 from app.scene.clouds_view import (
     FLOW_NODE,
     GHOST_NODE,
+    SECOND_FLOW_NODE,
     SOURCE_NODE,
     TARGET_NODE,
     TRUTH_NODE,
@@ -36,7 +37,7 @@ _NODES = {
     "Fields of view": (FRUSTUMS,),
     "Source": (SOURCE_NODE,),
     "Target": (TARGET_NODE,),
-    "Flow": (FLOW_NODE,),
+    "Flow": (FLOW_NODE, SECOND_FLOW_NODE),
     "Truth": (TRUTH_NODE,),
     "Truth ghost": (GHOST_NODE,),
     "Grid and axes": (GRID, AXES),
@@ -66,6 +67,7 @@ class Scene:
         self._sensors: SensorsView | None = None
         self._selection: SelectionView | None = None
         self._shown: Pair | None = None
+        self._second: Pair | None = None
         self._turn = np.eye(3)
         self._speed_limit = 0.0
         self._stage = Stage(canvas.scene, settings.palette)
@@ -147,9 +149,14 @@ class Scene:
             self._lens = lens
             self._fit(lens)
 
-    def show(self, pair: Pair) -> None:
-        """Draw a pair; what has not changed since the last one is not sent again."""
-        before, self._shown = self._shown, pair
+    def show(self, pair: Pair, second: Pair | None = None) -> None:
+        """Draw a pair; what has not changed since the last one is not sent again.
+
+        Args:
+            pair: to be drawn.
+            second: of the same frame, whose flow is drawn too, in a colour of its own.
+        """
+        before, self._shown, self._second = self._shown, pair, second
         if before is None or before.target is not pair.target:
             self._clouds.show_target(pair.target.points)
             if self._robot:
@@ -218,8 +225,16 @@ class Scene:
             self._clouds.show_flow(none, none, seconds, none.astype(np.uint8))
         if self._sensors:
             self._sensors.highlight(seeing, palette)
+        self._show_second_flow(seconds)
         self._clouds.show_truth(*_truth_arrow(pair, self._turn[2]), seconds)
         self._clouds.show_ghost(_ghost(pair))
+
+    def _show_second_flow(self, seconds: float) -> None:
+        second, none = self._second, np.zeros((0, 3))
+        if second and second.source and second.flow:
+            self._clouds.show_second_flow(second.source.points, second.flow.velocity, seconds)
+        else:
+            self._clouds.show_second_flow(none, none, seconds)
 
     def _show_layers(self) -> None:
         for layer, names in _NODES.items():

@@ -25,6 +25,8 @@ def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None)
         settings=ViewSettings(),
         legend=Legend(),
         pair=Estimates().estimated(opened, frame, parameters),
+        comparison=None,
+        other=None,
         picked=None,
         playing=False,
         playback=Playback(0, len(opened.recording) - 1),

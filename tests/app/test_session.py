@@ -210,7 +210,7 @@ def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
     before = points(client, "target")
     client.change("Recording", "bad")
     until(lambda: any("bad.mcap is no recording." in n for n in client.notifications))
-    assert client.control("Recording").value == "a"
+    until(lambda: client.control("Recording").value == "a")
     assert np.array_equal(points(client, "target"), before)
     client.change("Recording", "b")
     until(lambda: session._shared.library._shared.keys() >= {session._shared.library.listing()[1]})
@@ -423,3 +423,75 @@ def test_a_bad_recording_at_the_front_does_not_keep_the_others_from_opening(clie
     assert client.notifications == ["0_bad.mcap is no recording."]
     session.close()
     session.join(10)
+
+
+def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
+    client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: arrow_count(client) == 0)
+    client.trigger("Compare: switch between A and B")
+    until(lambda: arrow_count(client) == 100)
+    assert client.control("δ").value == 0.04
+    client.change("γ", 0.6)
+    until(lambda: runs.parameters[-1] == Parameters(gamma=0.6))
+    client.press("Switch to B")
+    until(lambda: client.control("δ").value == 0.3)
+    assert client.control("γ").value == 0.7
+    until(lambda: arrow_count(client) == 0)
+    client.press("Draw both")
+    # A's arrows are the first flow, whichever is edited.
+    until(lambda: arrow_count(client) == 100)
+    assert len(points(client, "second_flow")) == 0
+    client.change("δ", 0.05)
+    until(lambda: len(points(client, "second_flow")) == 100)
+    client.change("Flow", False)
+    until(lambda: not client.node(f"{FIXED}/second_flow").visible)
+    client.press("Remove B")
+    until(lambda: len(points(client, "second_flow")) == 0)
+    assert client.control("γ").value == 0.6
+    assert client.control("δ").value == 0.04
+
+
+def test_a_and_b_are_undone_apart(session, client):
+    client.change("γ", 0.6)
+    client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: arrow_count(client) == 0)
+    client.trigger("Undo parameters")
+    until(lambda: client.control("δ").value == 0.04)
+    client.trigger("Undo parameters")
+    client.press("Switch to A")
+    until(lambda: "<b>A</b> is shown" in client.text())
+    assert client.control("γ").value == 0.6
+    client.trigger("Undo parameters")
+    until(lambda: client.control("γ").value == 0.7)
+
+
+def test_only_what_is_shown_is_estimated(session, client, runs):
+    client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: runs.parameters[-1].delta == 0.3)
+    client.trigger("Compare: switch between A and B")
+    until(lambda: client.control("δ").value == 0.04)
+    count = len(runs)
+    for step in range(3):
+        client.change("Frame", 30 + step)
+        until(lambda step=step: len(runs) == count + step + 1)
+    assert [p.delta for p in runs.parameters[count:]] == [0.04] * 3
+    until(lambda: "B is not estimated here" in client.text())
+    client.press("Draw both")
+    until(lambda: runs.parameters[-1].delta == 0.3)
+    until(lambda: "not estimated here" not in client.text())
+
+
+def test_an_error_of_the_second_estimate_is_told_and_the_first_is_shown(session, client, runs):
+    client.press("Copy A to B")
+    client.press("Draw both")
+    until(lambda: client.control("Draw both").value)
+    runs.error = RuntimeError("B has had enough")
+    client.change("δ", 0.05)
+    until(lambda: any("B has had enough" in n for n in client.notifications))
+    assert arrow_count(client) == 100

@@ -1,0 +1,149 @@
+"""Two sets of parameters, or two methods, against each other: A and B."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Self
+
+import viser
+
+from app.colours import css
+from app.comparison import A, B, Comparison
+from app.panel import Desk, Panel, Shown
+from app.panels.differences import changes, difference_table
+from app.panels.tables import framed
+from app.wishes import LatestWins
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
+
+
+@dataclass(frozen=True)
+class CopyToB(LatestWins):
+    """Make B a copy of A, and edit it."""
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Copy it."""
+        before = workbench.comparison
+        if before is None:
+            workbench.compare(Comparison(workbench.parameters, B), workbench.parameters)
+        else:
+            of_a, _ = before.in_order(workbench.parameters, before.other)
+            workbench.compare(replace(before, other=of_a, edited=B), of_a)
+
+
+@dataclass(frozen=True)
+class SwitchSide:
+    """Edit B instead of A, or the other way round, this many times; B is made where it is not."""
+
+    times: int = 1
+
+    def after(self, earlier: Self) -> Self:
+        """All the times."""
+        return type(self)(earlier.times + self.times)
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Edit the other one."""
+        before = workbench.comparison
+        if before is None:
+            CopyToB().fulfil(workbench)
+        elif self.times % 2:
+            workbench.compare(before.switched(workbench.parameters), before.other)
+
+
+@dataclass(frozen=True)
+class DrawBoth(LatestWins):
+    """Draw the flow of both, or of the edited one alone."""
+
+    both: bool
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Draw so."""
+        if workbench.comparison is not None:
+            workbench.comparison = replace(workbench.comparison, both=self.both)
+
+
+@dataclass(frozen=True)
+class RemoveB(LatestWins):
+    """Go on with A alone."""
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Forget B."""
+        if before := workbench.comparison:
+            of_a, _ = before.in_order(workbench.parameters, before.other)
+            workbench.compare(None, of_a)
+
+
+class ComparePanel(Panel):
+    """Make B, switch between A and B, and read how they differ on the pair that is shown."""
+
+    def __init__(self, desk: Desk) -> None:
+        gui, post = desk.client.gui, desk.post
+        with gui.add_folder("Compare", expand_by_default=False):
+            self._state = gui.add_html("")
+            copy = gui.add_button(
+                "Copy A to B",
+                icon=viser.Icon.COPY,
+                color="gray",
+                hint="B begins as A is now; change it with the controls of the parameters.",
+            )
+            self._switch = gui.add_button(
+                "Switch to B", icon=viser.Icon.SWITCH_HORIZONTAL, visible=False, hint="Key B"
+            )
+            self._both = gui.add_checkbox(
+                "Draw both", False, visible=False, hint="The flow of A and of B in the scene."
+            )
+            self._table = gui.add_html("")
+            self._remove = gui.add_button(
+                "Remove B", icon=viser.Icon.X, color="gray", visible=False
+            )
+        key = gui.add_command("Compare: switch between A and B", hotkey="B")
+
+        # Coroutines run at once, before anything can change a control's value again.
+        @copy.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(CopyToB())
+
+        @self._switch.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(SwitchSide())
+
+        @key.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            post(SwitchSide())
+
+        @self._both.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client_id is not None:
+                post(DrawBoth(self._both.value))
+
+        @self._remove.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(RemoveB())
+
+    def show(self, shown: Shown) -> None:
+        """Say what is edited, and how A and B differ."""
+        comparison = shown.comparison
+        self._switch.visible = self._both.visible = self._remove.visible = comparison is not None
+        if comparison is None:
+            self._state.content = framed(
+                "B is a second set of parameters, or another method. Copy A to B, then change it."
+            )
+            self._table.content = ""
+            return
+        edited, other = comparison.edited, A if comparison.edited == B else B
+        self._both.value = comparison.both
+        self._switch.label = f"Switch to {other}"
+        colour = css(shown.settings.palette.second)
+        legend = (
+            f' <span style="color: {colour}">■</span> The flow of B.' if comparison.both else ""
+        )
+        self._state.content = framed(
+            f"<b>{edited}</b> is shown, and what the parameters' controls change.{legend}"
+        )
+        of_a, of_b = comparison.in_order(shown.parameters, comparison.other)
+        pairs = comparison.in_order(shown.pair, shown.other)
+        missing = (
+            ""
+            if shown.other or not shown.pair
+            else f"<div>{other} is not estimated here; switch to it or draw both.</div>"
+        )
+        self._table.content = framed(changes(of_a, of_b) + difference_table(*pairs) + missing)
