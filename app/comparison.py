@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import TypeVar
 
+from app.estimates import Estimates, Pair
+from app.library import Opened
 from estimator import Parameters
 
 T = TypeVar("T")
@@ -31,3 +33,48 @@ class Comparison:
     def in_order(self, edited: T, other: T) -> tuple[T, T]:
         """What belongs to A, and what belongs to B."""
         return (edited, other) if self.edited == A else (other, edited)
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One frame with the edited parameters, and with the other ones.
+
+    Attributes:
+        pair: with the edited parameters.
+        other: with the other ones, None unless its estimate is wanted or known.
+        drawn: what is drawn first, and what is drawn with it.
+        problem: what went wrong in an estimate; its pair has no flow then.
+    """
+
+    pair: Pair
+    other: Pair | None
+    drawn: tuple[Pair, Pair | None]
+    problem: Exception | None
+
+
+def compared(
+    estimates: Estimates,
+    opened: Opened,
+    frame: int,
+    parameters: Parameters,
+    comparison: Comparison | None,
+) -> Compared:
+    """Estimate what is shown of a frame; what is not shown is looked up, not estimated."""
+    pair, problem = _estimated(estimates, opened, frame, parameters)
+    if comparison is None:
+        return Compared(pair, None, (pair, None), problem)
+    if not comparison.both:
+        known = estimates.known(opened, frame, comparison.other)
+        return Compared(pair, known, (pair, None), problem)
+    other, failed = _estimated(estimates, opened, frame, comparison.other)
+    return Compared(pair, other, comparison.in_order(pair, other), problem or failed)
+
+
+def _estimated(
+    estimates: Estimates, opened: Opened, frame: int, parameters: Parameters
+) -> tuple[Pair, Exception | None]:
+    """A pair; without its flow where the estimator fails on it, and what went wrong."""
+    try:
+        return estimates.estimated(opened, frame, parameters), None
+    except Exception as error:
+        return estimates.pair(opened, frame, parameters), error

@@ -9,7 +9,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.comparison import A, B, Comparison
+from app.comparison import A, B, Comparison, compared
 from app.errors import InputError
 from app.estimates import Estimates, Pair
 from app.evaluation import counting_pairs
@@ -96,7 +96,8 @@ class Workbench:
         """Bring scene and page up to date, with whatever frame is due by now."""
         if self.opened is None or self._mailbox.waits(OpenRecording):
             return  # nothing is computed for a recording that is about to be left
-        self._follow_clock()
+        if self._clock.playing:
+            self.frame = self._clock.advance(time.monotonic())
         wanted = (self.opened, self.frame, self.parameters, self.comparison)
         try:
             if wanted != self._drawn:
@@ -265,41 +266,21 @@ class Workbench:
         self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
     ) -> None:
         self._pair = self._other = None
-        pair, problem = self._estimated(opened, frame, parameters)
-        self._pair, first, second = pair, pair, None
-        if comparison is not None and comparison.both:
-            self._other, failed = self._estimated(opened, frame, comparison.other)
-            first, second = comparison.in_order(pair, self._other)
-            problem = problem or failed
-        elif comparison is not None:
-            # What is not shown is not estimated, but said where it is known.
-            self._other = self._estimates.known(opened, frame, comparison.other)
+        found = compared(self._estimates, opened, frame, parameters, comparison)
+        self._pair, self._other = found.pair, found.other
         with self.client.atomic():
-            self._scene.show(first, second)
+            self._scene.show(*found.drawn)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
-                self._scene.place_camera(pair, aspect=self._aspect)
+                self._scene.place_camera(found.pair, aspect=self._aspect)
         self._drawn = (opened, frame, parameters, comparison)
-        if problem is not None:
-            raise problem
-
-    def _estimated(
-        self, opened: Opened, frame: int, parameters: Parameters
-    ) -> tuple[Pair, Exception | None]:
-        """A pair; without its flow where the estimator fails on it, and what went wrong."""
-        try:
-            return self._estimates.estimated(opened, frame, parameters), None
-        except Exception as error:
-            return self._estimates.pair(opened, frame, parameters), error
+        if found.problem is not None:
+            raise found.problem
 
     def _mark(self) -> None:
         if self._pair is not None:
             self._picked = self._selection.follow(self._pair)
             self._scene.mark(self._pair, cluster_of(self._pair, self._picked))
-
-    def _follow_clock(self) -> None:
-        if self._clock.playing:
-            self.frame = self._clock.advance(time.monotonic())
 
     def _timeline(self, opened: Opened) -> Timeline:
         """The timeline, looked through again once in a while: estimates come one by one."""

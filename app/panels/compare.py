@@ -77,6 +77,7 @@ class ComparePanel(Panel):
 
     def __init__(self, desk: Desk) -> None:
         gui, post = desk.client.gui, desk.post
+        self._shown: Comparison | None = None
         with gui.add_folder("Compare", expand_by_default=False):
             self._state = gui.add_html("")
             copy = gui.add_button(
@@ -121,7 +122,8 @@ class ComparePanel(Panel):
 
     def show(self, shown: Shown) -> None:
         """Say what is edited, and how A and B differ."""
-        comparison = shown.comparison
+        comparison, before = shown.comparison, self._shown
+        self._shown = comparison
         self._switch.visible = self._both.visible = self._remove.visible = comparison is not None
         if comparison is None:
             self._state.content = framed(
@@ -130,12 +132,13 @@ class ComparePanel(Panel):
             self._table.content = ""
             return
         edited, other = comparison.edited, A if comparison.edited == B else B
-        self._both.value = comparison.both
+        if before is None or before.both != comparison.both:
+            # Otherwise it may have been switched a moment ago.
+            self._both.value = comparison.both
         self._switch.label = f"Switch to {other}"
         colour = css(shown.settings.palette.second)
-        legend = (
-            f' <span style="color: {colour}">■</span> The flow of B.' if comparison.both else ""
-        )
+        mark = f' <span style="color: {colour}">■</span> The flow of B.'
+        legend = mark if comparison.both else ""
         self._state.content = framed(
             f"<b>{edited}</b> is shown, and what the parameters' controls change.{legend}"
         )

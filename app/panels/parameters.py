@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Self
 import viser
 
 from app.mailbox import Wish
-from app.panel import Desk, Panel
+from app.panel import Desk, Panel, Shown
 from app.wishes import ChangeParameters, ResetParameters
 from estimator import PARAMETER_INFO, Parameters, method_names
 
@@ -45,7 +45,8 @@ class ParametersPanel(Panel):
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()
         self._sliders = [name for name, info in PARAMETER_INFO.items() if info.slider]
-        with gui.add_folder("Parameters"):
+        self._folder = gui.add_folder("Parameters")
+        with self._folder:
             for name in self._sliders:
                 self._controls[name] = _add_slider(gui, name, getattr(parameters, name))
             self._controls["method"] = _add_field(gui, "method", parameters.method)
@@ -75,6 +76,11 @@ class ParametersPanel(Panel):
             post(UndoParameters(1 if history.value == "Undo" else -1))
 
         _add_commands(gui, post)
+
+    def show(self, shown: Shown) -> None:
+        """Say whose parameters these are, where two sets are compared."""
+        compared = shown.comparison
+        self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
 
     def replace(self, parameters: Parameters) -> None:
         """Show these parameters, and that nothing is refused."""

@@ -489,8 +489,9 @@ def test_only_what_is_shown_is_estimated(session, client, runs):
 
 def test_an_error_of_the_second_estimate_is_told_and_the_first_is_shown(session, client, runs):
     client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
     client.press("Draw both")
-    until(lambda: client.control("Draw both").value)
+    until(lambda: "The flow of B." in client.text())
     runs.error = RuntimeError("B has had enough")
     client.change("δ", 0.05)
     until(lambda: any("B has had enough" in n for n in client.notifications))

@@ -5,7 +5,7 @@ def test_a_key_switches_between_a_and_b_and_both_are_drawn_in_two_colours(tab: T
     count = len(tab.arrows())
     tab.page.get_by_text("Compare", exact=True).click()
     tab.page.get_by_role("button", name="Copy A to B").click()
-    tab.until(lambda: tab.has_text("Switch to A"))
+    tab.until(lambda: tab.has_text("Switch to A") and tab.has_text("Parameters of B"))
     tab.set_slider("δ", "End")
     tab.until(lambda: len(tab.arrows()) == 0)
     tab.page.locator("canvas[data-engine]").click(position={"x": 5, "y": 5})
@@ -22,3 +22,4 @@ def test_a_key_switches_between_a_and_b_and_both_are_drawn_in_two_colours(tab: T
     tab.page.get_by_role("button", name="Remove B").click()
     tab.until(lambda: len(tab.points("second_flow")) == 0)
     assert len(tab.arrows()) == count
+    assert not tab.has_text("Parameters of")
