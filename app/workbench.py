@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from app.comparison import A, B, Comparison, compared
 from app.errors import InputError
 from app.estimates import Estimates, Pair
-from app.evaluation import counting_pairs
 from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox
+from app.opening import telling_frame
 from app.page import Page
 from app.panel import Desk, Shown
 from app.parameter_history import ParameterHistory
@@ -28,7 +28,6 @@ from app.selection import Selection, cluster_at, cluster_of
 from app.timeline import Timeline, neighbour
 from app.wishes import OpenRecording, Seek
 from estimator import Parameters
-from recordings import Recording
 
 _OUTLOOK = 1.0  # seconds after which the timeline is looked through again
 
@@ -118,7 +117,7 @@ class Workbench:
             self._library.release(before.entry)
         recording = opened.recording
         self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
-        self.frame = opening_frame(recording, self.parameters.n)
+        self.frame = telling_frame(opened, self.parameters, self._estimates)
         self._selection.drop()
         with self.client.atomic():
             self._scene.open(recording)
@@ -289,11 +288,3 @@ class Workbench:
             timeline = self._estimates.timeline(opened, self.parameters)
             self._outlined = (wanted, now + _OUTLOOK, timeline)
         return self._outlined[2]
-
-
-def opening_frame(recording: Recording, n: int) -> int:
-    """The frame in the middle of the motion, or of the recording where no motion is known."""
-    moving = list(counting_pairs(recording, n))
-    if moving:
-        return moving[len(moving) // 2][1]
-    return min(max(n, len(recording) // 2), len(recording) - 1)

@@ -91,6 +91,8 @@ def note_on(pair: Pair, parameters: Parameters) -> str:
         return "The moving object is at rest."
     if not pair.flow.moving.any():
         return _why_nothing_moves(pair, pair.flow, parameters)
+    if pair.truth is None:
+        return "No truth here: errors are known with --truth-frame, or where a target is recorded."
     return ""
 
 

@@ -141,8 +141,9 @@ class Scene:
                 self._fit(self._lens)
 
     def focus(self) -> None:
-        """Draw in sizes that suit where the camera is; at once, or when it has moved."""
-        self._focus(Lens.of(self._canvas.camera))
+        """Draw in sizes that suit where the camera has moved to, once it was placed."""
+        if self._lens:
+            self._focus(Lens.of(self._canvas.camera))
 
     def _focus(self, lens: Lens) -> None:
         if self._lens is None or not self._lens.similar(lens):
@@ -194,7 +195,10 @@ class Scene:
             self._show_layers()
 
     def _fit(self, lens: Lens) -> None:
-        self._canvas.camera.near = lens.near
+        # What the browser tells of its camera may be older than what it was sent, and viser does
+        # not send what it believes to be there: a value that nobody believes goes before.
+        for near in (1.001 * lens.near, lens.near):
+            self._canvas.camera.near = near
         self._clouds.fit(lens.height, self._settings.point_size / _REFERENCE_HEIGHT)
         if self._selection:
             self._selection.set_point_size(self._clouds.radius)

@@ -32,6 +32,7 @@ def scene(client, pair):
     scene = Scene(client, ViewSettings())
     scene.open(fake_recording())
     scene.show(pair)
+    scene.place_camera(pair)
     return scene
 
 
