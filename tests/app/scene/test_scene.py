@@ -106,7 +106,7 @@ def test_another_palette_paints_everything(scene, client):
 
 
 def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, client):
-    sizes = []
+    sizes, client.camera.look_at = [], np.zeros(3)
     for distance in (0.3, 4.0):
         client.camera.position = np.array([0.0, -distance, 0.0])
         scene.focus()
@@ -117,7 +117,7 @@ def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, 
 
 
 def test_turning_the_camera_sends_nothing(scene, client):
-    client.camera.position = np.array([2.0, 0.0, 0.0])
+    client.camera.look_at, client.camera.position = np.zeros(3), np.array([2.0, 0.0, 0.0])
     scene.focus()
     client.take_sent()
     client.camera.position = np.array([0.0, 2.0, 0.0])
