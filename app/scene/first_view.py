@@ -19,7 +19,11 @@ class View:
 
 
 def first_view(
-    points: NDArray[np.float64], poses: NDArray[np.float64], R_drawing_fixed: Vector, fov: float
+    points: NDArray[np.float64],
+    poses: NDArray[np.float64],
+    R_drawing_fixed: Vector,
+    fov: float,
+    moving: Vector | None = None,
 ) -> View:
     """A view of the sensors and of what they see near by.
 
@@ -28,10 +32,14 @@ def first_view(
         poses: (S, 4, 4) T_fixed_sensor, NaN where not known.
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         fov: vertical field of view of the camera, rad.
+        moving: (M, 3) points in the fixed frame that are to be seen, wherever they are.
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
-    low, high = corners(points @ R_drawing_fixed.T, sensors)
+    box = [*corners(points @ R_drawing_fixed.T, sensors)]
+    if moving is not None and len(moving):
+        box += [*np.percentile(moving @ R_drawing_fixed.T, [5, 95], axis=0)]
+    low, high = np.min(box, axis=0), np.max(box, axis=0)
     centre = (low + high) / 2
     radius = max(float(np.linalg.norm(high - low)) / 2, 0.25)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
@@ -54,11 +62,15 @@ def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
 
 
 def _near(points: Vector, sensors: Vector) -> Vector:
-    """The points within reach of the sensors' centre, the nearest tenth at the very least."""
+    """The points within reach of the sensors' centre, a part of them at the very least.
+
+    Several sensors see the walls on all sides; a single one looks at something.
+    """
     if len(points) == 0 or len(sensors) == 0:
         return points
     distance = np.linalg.norm(points - sensors.mean(axis=0), axis=1)
-    return points[distance <= max(_REACH, float(np.quantile(distance, 0.1)))]
+    part = 0.1 if len(sensors) > 1 else 0.9
+    return points[distance <= max(_REACH, float(np.quantile(distance, part)))]
 
 
 def _towards_camera(looking: Vector) -> Vector:

@@ -68,3 +68,20 @@ def test_an_optical_frame_is_drawn_with_its_y_axis_down():
     assert np.linalg.det(R) == pytest.approx(1)
     np.testing.assert_allclose(R @ [0, 1, 0], [0, 0, -1])
     np.testing.assert_allclose(upright("world"), np.eye(3))
+
+
+def test_what_moves_is_in_the_picture_however_far_it_is():
+    rng = np.random.default_rng(0)
+    near = rng.uniform(-0.5, 0.5, (300, 3))
+    moving = rng.uniform(-0.1, 0.1, (50, 3)) + [0.0, 2.0, 0.5]
+    points = np.vstack([near, moving])
+    poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
+    assert visible(first_view(points, poses, np.eye(3), FOV, moving), moving).all()
+
+
+def test_a_single_sensor_is_seen_with_what_it_looks_at_far_away():
+    wall = np.random.default_rng(0).uniform([2.5, -1, -1], [2.6, 1, 1], (60, 3))
+    close = np.random.default_rng(0).uniform([0.4, -0.1, -0.1], [0.5, 0.1, 0.1], (20, 3))
+    points = np.vstack([wall, close])
+    view = first_view(points, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV)
+    assert visible(view, points).mean() > 0.8
