@@ -73,7 +73,7 @@ def test_an_optical_frame_is_drawn_with_its_y_axis_down():
 def test_what_moves_is_in_the_picture_however_far_it_is():
     rng = np.random.default_rng(0)
     near = rng.uniform(-0.5, 0.5, (300, 3))
-    moving = rng.uniform(-0.1, 0.1, (50, 3)) + [0.0, 2.0, 0.5]
+    moving = np.array([0.0, 2.0, 0.5]) + rng.uniform(-0.1, 0.1, (50, 3))
     points = np.vstack([near, moving])
     poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
     assert visible(first_view(points, poses, np.eye(3), FOV, moving), moving).all()
