@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from app.evaluation import pair_errors
+from app.foreground import Foreground
 from app.library import Opened
 from app.memory import Memory
 from app.timeline import Outline, Timeline
@@ -14,7 +16,6 @@ from estimator import (
     Label,
     Metrics,
     Parameters,
-    PooledErrors,
     SceneFlow,
     estimate_scene_flow,
 )
@@ -73,9 +74,7 @@ class Pair:
         """The errors of this pair; None unless it has a flow and its object moves."""
         if self.flow is None or self.truth is None or self.object_velocity is None:
             return None
-        errors = PooledErrors()
-        errors.add(self.flow, self.interval, self.truth.velocity, self.truth.points)
-        return errors.metrics()
+        return pair_errors(self.flow, self.interval, self.truth).metrics()
 
 
 def warm_up() -> None:
@@ -92,12 +91,16 @@ class Estimates:
     Args:
         clouds: how many clouds are remembered.
         flows: how many estimates are remembered.
+
+    Attributes:
+        foreground: says when somebody waits for an estimate.
     """
 
     def __init__(self, clouds: int = 400, flows: int = 400) -> None:
         self._clouds: Memory[tuple, Cloud] = Memory(clouds)
         self._pairs: Memory[tuple, Pair] = Memory(flows)
         self._outlines: Memory[tuple, Outline] = Memory(16)
+        self.foreground = Foreground()
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The pair (k-n, k) without an estimate, its clouds taken from memory where they are.
@@ -124,8 +127,19 @@ class Estimates:
         Raises:
             RecordingError: the file is broken there.
         """
-        key = (opened.key, k, parameters)
-        return self._pairs.get(key, lambda: _estimate(self.pair(opened, k, parameters), parameters))
+
+        def make() -> Pair:
+            with self.foreground:
+                return _estimate(self.pair(opened, k, parameters), parameters)
+
+        return self._pairs.get((opened.key, k, parameters), make)
+
+    def estimated_ahead(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+        """The same where nobody waits for it: it is not counted as work in the foreground."""
+        return self._pairs.get(
+            (opened.key, k, parameters),
+            lambda: _estimate(self.pair(opened, k, parameters), parameters),
+        )
 
     def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
         """The pair (k-n, k) with its flow where it was estimated already."""

@@ -4,8 +4,26 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from estimator import MOVING_SPEED, Metrics, Parameters, PooledErrors, estimate_scene_flow
-from recordings import Recording
+from estimator import (
+    MOVING_SPEED,
+    Metrics,
+    Parameters,
+    PooledErrors,
+    SceneFlow,
+    estimate_scene_flow,
+)
+from recordings import PairTruth, Recording
+
+COLUMNS = {
+    "pairs": ("pairs", "d"),
+    "points_with_flow": ("points with flow", "d"),
+    "angle_deg": ("angle deg", ".2f"),
+    "velocity_error": ("velocity error m/s", ".4f"),
+    "coverage": ("coverage", ".3f"),
+    "precision": ("precision", ".3f"),
+    "epe3d": ("EPE3D m", ".4f"),
+}
+"""{attribute of Metrics: (what people read, format)}."""
 
 
 def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
@@ -24,8 +42,15 @@ def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
             interval,
             parameters,
         )
-        errors.add(flow, interval, truth.velocity, truth.points)
+        errors.include(pair_errors(flow, interval, truth).sums)
     return errors.metrics()
+
+
+def pair_errors(flow: SceneFlow, interval: float, truth: PairTruth) -> PooledErrors:
+    """The errors of one pair, whose stamps are `interval` seconds apart."""
+    errors = PooledErrors()
+    errors.add(flow, interval, truth.velocity, truth.points)
+    return errors
 
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:

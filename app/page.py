@@ -12,6 +12,7 @@ from app.panels.explain import ExplainPanel
 from app.panels.legend import LegendPanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
+from app.panels.plots import PlotsPanel
 from app.panels.presets import PresetsPanel
 from app.panels.recordings import RecordingsPanel
 from app.panels.screenshot import ScreenshotPanel
@@ -45,6 +46,7 @@ class Page:
             ViewPanel(desk),
             ScreenshotPanel(desk),
             LegendPanel(desk),
+            PlotsPanel(desk),
         ]
 
     def open(self, opened: Opened) -> None:
@@ -60,6 +62,11 @@ class Page:
         """Show what the session shows."""
         for panel in self._panels:
             panel.show(shown)
+
+    def close(self) -> None:
+        """Let go of the recording, which is about to be closed."""
+        for panel in self._panels:
+            panel.close()
 
 
 def show_empty_page(client: viser.ClientHandle, folders: Sequence[str]) -> None:

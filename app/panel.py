@@ -12,6 +12,7 @@ from app.mailbox import Wish
 from app.playback_clock import Playback
 from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
+from app.surveys import Surveys
 from app.timeline import Timeline
 from estimator import Parameters
 
@@ -26,6 +27,7 @@ class Desk:
         parameters: to begin with.
         settings: to begin with.
         post: takes wishes, from any thread.
+        surveys: of whole recordings, computed in the background.
     """
 
     client: viser.ClientHandle
@@ -33,6 +35,7 @@ class Desk:
     parameters: Parameters
     settings: ViewSettings
     post: Callable[[Wish], None]
+    surveys: Surveys
 
 
 @dataclass(frozen=True)
@@ -84,3 +87,6 @@ class Panel:
 
     def show(self, shown: Shown) -> None:
         """Show what the session shows; called whenever that may have changed."""
+
+    def close(self) -> None:
+        """Let go of the recording, which is about to be closed."""

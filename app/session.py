@@ -4,6 +4,7 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from uuid import uuid4
 
 import viser
@@ -14,6 +15,7 @@ from app.library import Library
 from app.mailbox import Mailbox
 from app.page import show_empty_page
 from app.reloads import Left, Reloads
+from app.surveys import Surveys
 from app.wishes import OpenAny, Seek
 from app.workbench import Workbench
 from estimator import Parameters
@@ -37,6 +39,11 @@ class Shared:
     estimates: Estimates
     reloads: Reloads
     parameters: Parameters
+
+    @cached_property
+    def surveys(self) -> Surveys:
+        """Of whole recordings, in the background."""
+        return Surveys(self.estimates)
 
 
 class Session:
@@ -74,6 +81,7 @@ class Session:
                 self._client,
                 self._shared.library,
                 self._shared.estimates,
+                self._shared.surveys,
                 entries,
                 left.parameters if left else self._shared.parameters,
                 self._shared.parameters,

@@ -25,6 +25,7 @@ from app.scene.photograph import photograph
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from app.selection import Selection, cluster_at, cluster_of
+from app.surveys import Surveys
 from app.timeline import Timeline, neighbour
 from app.wishes import OpenRecording, Seek
 from estimator import Parameters
@@ -39,6 +40,7 @@ class Workbench:
         client: the browser client.
         library: opens recordings.
         estimates: computes and remembers.
+        surveys: computes whole recordings in the background.
         entries: the recordings that may be opened, at least one.
         parameters: to begin with.
         defaults: to go back to.
@@ -50,6 +52,7 @@ class Workbench:
         client: viser.ClientHandle,
         library: Library,
         estimates: Estimates,
+        surveys: Surveys,
         entries: Sequence[Entry],
         parameters: Parameters,
         defaults: Parameters,
@@ -75,7 +78,7 @@ class Workbench:
         self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
         self._selection = Selection()
         self._picked: int | None = None
-        self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post))
+        self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post, surveys))
 
     @property
     def playback(self) -> Playback:
@@ -114,6 +117,7 @@ class Workbench:
         opened = self._library.open(entry)
         before, self.opened = self.opened, opened
         if before is not None:
+            self.page.close()
             self._library.release(before.entry)
         recording = opened.recording
         self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
@@ -228,6 +232,7 @@ class Workbench:
         """Give back the recording; what was shown is returned, for when the client comes again."""
         if self.opened is None:
             return None
+        self.page.close()
         left = Left(self.opened.entry.label, self.frame, self.parameters)
         self._library.release(self.opened.entry)
         self.opened = None

@@ -48,6 +48,13 @@ class PooledErrors:
         self._coverage = _Mean()
         self._precision = _Mean()
         self._end_points = _Mean()
+        self._means = (
+            self._angles,
+            self._velocity_errors,
+            self._coverage,
+            self._precision,
+            self._end_points,
+        )
 
     def add(
         self,
@@ -79,6 +86,18 @@ class PooledErrors:
         errors = np.linalg.norm(moved_by_flow - point_velocity[known], axis=1)
         self._end_points.add(errors * interval)
 
+    @property
+    def sums(self) -> NDArray[np.float64]:
+        """(11,) what was added so far, to `include` it elsewhere: pairs, and sum, count of each."""
+        return np.array([self._pairs, *(v for m in self._means for v in (m.sum, m.count))])
+
+    def include(self, sums: NDArray[np.float64]) -> None:
+        """Add the pairs of another collection, by its `sums` (11,)."""
+        self._pairs += int(sums[0])
+        for mean, (total, count) in zip(self._means, sums[1:].reshape(-1, 2), strict=True):
+            mean.sum += float(total)
+            mean.count += int(count)
+
     def metrics(self) -> Metrics:
         """The errors of all pairs added so far."""
         return Metrics(
@@ -105,15 +124,15 @@ class _Mean:
     """A mean over values that come in pieces; values that are NaN are left out."""
 
     def __init__(self) -> None:
-        self._sum = 0.0
+        self.sum = 0.0
         self.count = 0
 
     def add(self, values: NDArray[np.float64] | NDArray[np.bool_]) -> None:
         good = np.asarray(values, dtype=np.float64)
         good = good[np.isfinite(good)]
-        self._sum += float(good.sum())
+        self.sum += float(good.sum())
         self.count += len(good)
 
     @property
     def value(self) -> float:
-        return self._sum / self.count if self.count else math.nan
+        return self.sum / self.count if self.count else math.nan

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from app.errors import InputError, UserError
-from app.evaluation import evaluate
+from app.evaluation import COLUMNS, evaluate
 from app.parameter_flags import add_parameter_flags, parameters_from
 from app.recording_flags import (
     Opening,
@@ -23,15 +23,6 @@ from app.recording_flags import (
 from estimator import Metrics, Parameters
 from recordings import Recording
 
-_COLUMNS = {
-    "pairs": ("pairs", "d"),
-    "points_with_flow": ("points with flow", "d"),
-    "angle_deg": ("angle deg", ".2f"),
-    "velocity_error": ("velocity error m/s", ".4f"),
-    "coverage": ("coverage", ".3f"),
-    "precision": ("precision", ".3f"),
-    "epe3d": ("EPE3D m", ".4f"),
-}
 _MEANS = ("angle_deg", "velocity_error", "coverage", "precision", "epe3d")
 
 
@@ -61,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         _check_writable(options.json)
     rows: list[dict[str, Any]] = []
-    print(_line("recording", [title for title, _ in _COLUMNS.values()]))
+    print(_line("recording", [title for title, _ in COLUMNS.values()]))
     for path in recording_paths(options.paths):
         row, warnings = _row(path, opening, parameters)
         rows.append(row)
@@ -79,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
 def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
     """A recording's row of the table, and sentences about what to know of it."""
     row: dict[str, Any] = {"path": str(path), "scenario": None, "speed": None, "trial": None}
-    row |= dict.fromkeys(_COLUMNS)
+    row |= dict.fromkeys(COLUMNS)
     try:
         with opening.open(path) as recording:
             if source := recording.provenance:
@@ -139,12 +130,12 @@ def _as_json(metrics: Metrics) -> dict[str, Any]:
 def _cells(row: dict[str, Any]) -> list[str]:
     return [
         "-" if row.get(key) is None else format(row[key], form)
-        for key, (_, form) in _COLUMNS.items()
+        for key, (_, form) in COLUMNS.items()
     ]
 
 
 def _line(name: str, cells: list[str]) -> str:
-    widths = [max(len(title), 8) for title, _ in _COLUMNS.values()]
+    widths = [max(len(title), 8) for title, _ in COLUMNS.values()]
     aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
     return "  ".join([name.ljust(24), *aligned])
 

@@ -8,12 +8,15 @@ from app.panel import Desk, Shown
 from app.playback_clock import Playback
 from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
+from app.surveys import Surveys
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 
 
 def desk(client: Any, post=lambda wish: None) -> Desk:
-    return Desk(client, [fake_opened().entry], Parameters(), ViewSettings(), post)
+    return Desk(
+        client, [fake_opened().entry], Parameters(), ViewSettings(), post, Surveys(Estimates())
+    )
 
 
 def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None) -> Shown:

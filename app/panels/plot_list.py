@@ -1,0 +1,200 @@
+"""Which plots there are, and how they look."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import viser
+
+from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
+from app.evaluation import COLUMNS
+from app.survey import Survey
+
+_HEIGHT = 58  # pixels
+_MEANS = {
+    "angle_deg": "Angle [°]",
+    "velocity_error": "Vel. [m/s]",
+    "coverage": "Coverage",
+    "precision": "Precision",
+}
+_FONT = "10px sans-serif"
+_SMALL = "font-size: 0.75rem; padding: 0 1em; line-height: 1.5"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One kind of points in a plot.
+
+    Attributes:
+        label: what people read, empty where the plot's title says it.
+        name: attribute of the survey.
+        colour: of the points.
+    """
+
+    label: str
+    name: str
+    colour: Colour
+
+
+@dataclass(frozen=True)
+class PlotSpec:
+    """One plot over the whole recording.
+
+    Attributes:
+        title: without the unit.
+        unit: empty where there is none.
+        form: format of its values.
+        lines: what is drawn.
+        needs_truth: whether there is nothing to draw without truth.
+        top: what the vertical axis ends at, None to follow the data.
+    """
+
+    title: str
+    unit: str
+    form: str
+    lines: tuple[Line, ...]
+    needs_truth: bool
+    top: float | None = None
+
+    def heading(self, survey: Survey | None, frame: int) -> str:
+        """HTML: title, and the values at a frame."""
+        values = "".join(self._value(line, survey, frame) for line in self.lines)
+        unit = f' <span style="opacity: 0.6">[{self.unit}]</span>' if self.unit else ""
+        return (
+            '<div style="font-size: 0.75rem; padding: 0 1em; display: flex; white-space: nowrap">'
+            f'<b style="flex: 1; font-weight: 500">{self.title}{unit}</b>{values}</div>'
+        )
+
+    def data(self, survey: Survey) -> tuple[np.ndarray, ...]:
+        """Values of each line at every frame."""
+        return tuple(getattr(survey, line.name) for line in self.lines)
+
+    def scales(self, seconds: float, survey: Survey | None) -> dict[str, Any]:
+        """Axes from 0: the whole recording, and a round number above all values."""
+        top = self.top
+        if top is None:
+            top = _above(np.concatenate(self.data(survey)) if survey else np.zeros(0))
+        # What lies at either end is drawn whole.
+        return {
+            "x": {"time": False, "range": (0.0, seconds)},
+            "y": {"range": (-0.06 * top, 1.06 * top)},
+        }
+
+    def add_to(self, gui: viser.GuiApi, *, with_times: bool) -> viser.GuiUplotHandle:
+        """Add it to a page, its horizontal axis labelled or not."""
+        nothing = np.full(2, np.nan)
+        # Points and no lines, which would bridge what is not defined.
+        sizes = (4,) if len(self.lines) == 1 else (6, 3)
+        series = [
+            {
+                "label": line.label or self.title,
+                "stroke": css(line.colour),
+                "width": 0,
+                # Of equal values both are seen, the later in front of a larger one.
+                "points": {"show": True, "size": size, "width": 0, "fill": css(line.colour)},
+            }
+            for line, size in zip(self.lines, sizes, strict=True)
+        ]
+        axis = {"font": _FONT, "ticks": {"size": 3, "width": 1}, "gap": 3}
+        options: dict[str, Any] = {
+            "scales": self.scales(1.0, None),
+            "axes": (
+                {**axis, "size": 18 if with_times else 4, "space": 40},
+                {**axis, "size": 42, "space": 18},
+            ),
+            "legend": {"show": False},
+            # A click goes to a frame, and must not be the beginning of a zoom.
+            "cursor": {
+                "drag": {"x": False, "y": False},
+                "y": False,
+                "points": {"show": False},
+            },
+            "height": _HEIGHT + (14 if with_times else 0),
+            "padding": (4, 8, 0, 0),
+        }
+        if not with_times:
+            options["axes"][0]["values"] = ()
+        data = (np.array([0.0, 1.0]), *[nothing] * len(series))
+        return gui.add_uplot(data, ({}, *series), **options)  # pyright: ignore[reportArgumentType]
+
+    def _value(self, line: Line, survey: Survey | None, frame: int) -> str:
+        value = float(getattr(survey, line.name)[frame]) if survey else math.nan
+        text = "–" if math.isnan(value) else format(value, self.form)
+        return (
+            '<span style="width: 0.6em; height: 0.6em; border-radius: 50%; align-self: center;'
+            f' margin: 0 0.4em 0 0.9em; background: {css(line.colour)}"></span>'
+            f'{line.label}<span style="font-variant-numeric: tabular-nums; text-align: right;'
+            f' margin-left: 0.4em; min-width: 2.5em">{text}</span>'
+        )
+
+
+PLOTS = (
+    PlotSpec("Moving points", "", ".0f", (Line("", "moving", FLOW),), False),
+    PlotSpec(
+        "Speed",
+        "m/s",
+        ".3f",
+        (Line("est.", "speed", FLOW), Line("true", "true_speed", TRUTH)),
+        False,
+    ),
+    PlotSpec("Angle deviation", "°", ".1f", (Line("", "angle_deg", FLOW),), True),
+    PlotSpec("Velocity error", "m/s", ".3f", (Line("", "velocity_error", FLOW),), True),
+    PlotSpec(
+        "Coverage, precision",
+        "",
+        ".2f",
+        (Line("cov.", "coverage", TARGET), Line("prec.", "precision", SOURCE)),
+        True,
+        top=1.0,
+    ),
+)
+
+
+def summary(survey: Survey | None, *, has_truth: bool) -> str:
+    """HTML: the means over the pairs that count, how far they are, or why there are none.
+
+    It is equally high whatever it says.
+    """
+    share = float(survey.done.mean()) if survey else 0.0
+    if survey is None or share < 1:
+        frames = f"{np.count_nonzero(survey.done)} of {len(survey)} frames" if survey else ""
+        said = f"Computing the whole recording: {frames}"
+    elif not has_truth:
+        said = "No truth in this recording: no errors, coverage and precision."
+    else:
+        said = _means(survey)
+    bar = (
+        '<div style="height: 3px; border-radius: 2px; background: currentColor;'
+        f' width: {100 * share:.0f}%; opacity: {0.5 if share < 1 else 0}"></div>'
+    )
+    return f'<div style="{_SMALL}"><div style="min-height: 4.5em">{said}</div>{bar}</div>'
+
+
+def _means(survey: Survey) -> str:
+    metrics = survey.summary()
+    if metrics.pairs == 0:
+        return "No pair counts: the object must move at both of its frames."
+    cells = []
+    for name, title in _MEANS.items():
+        value = getattr(metrics, name)
+        text = "–" if math.isnan(value) else format(value, COLUMNS[name][1])
+        cells.append(
+            f'<span style="display: flex"><span style="flex: 1">{title}</span>'
+            f'<span style="font-variant-numeric: tabular-nums">{text}</span></span>'
+        )
+    grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
+    pairs = "1 pair" if metrics.pairs == 1 else f"{metrics.pairs} pairs"
+    return (
+        f"<div>Means, {pairs} with {metrics.points_with_flow} flow points</div>"
+        f'<div style="{grid}">{"".join(cells)}</div>'
+    )
+
+
+def _above(values: np.ndarray) -> float:
+    """1, 2 or 5 times a power of ten that is not below any of the values."""
+    largest = float(np.nanmax(values)) if np.isfinite(values).any() else 0.0
+    if largest <= 0:
+        return 1.0
+    power = 10.0 ** math.floor(math.log10(largest))
+    return next(step * power for step in (1, 2, 5, 10) if step * power >= largest)

@@ -1,0 +1,169 @@
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.estimates import Estimates
+from app.evaluation import evaluate
+from app.panels.plot_list import summary
+from app.panels.plots import PlotsPanel, SavePlots, SeekTime, ShowSurvey
+from app.survey import Survey
+from estimator import Parameters
+from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
+from tests.app.fake_session import desk, shown
+from tests.app.test_survey import filled
+from tests.app.test_surveys import until
+
+
+class Bench:
+    """A panel that shows a recording, and the wishes that it posts."""
+
+    def __init__(self, client, recording=None):
+        self.client, self.wishes = client, []
+        self.panel = PlotsPanel(desk(client, self.wishes.append))
+        self.opened = fake_opened(recording)
+        self.panel.open(self.opened)
+        self.panel.show(shown(self.opened))
+
+    def fulfil(self):
+        for wish in self.wishes:
+            if isinstance(wish, ShowSurvey):
+                wish.fulfil(self)  # pyright: ignore[reportArgumentType]
+
+    def fill(self):
+        until(lambda: self.wishes and self.wishes[-1].survey.complete)
+        self.fulfil()
+
+    @property
+    def plots(self):
+        return self.panel._plots
+
+
+def test_the_whole_recording_is_plotted_without_being_asked(client):
+    bench = Bench(client)
+    assert "Computing the whole recording" in client.text()
+    bench.fill()
+    for plot in bench.plots:
+        np.testing.assert_allclose(plot.data[0], PERIOD * np.arange(FRAMES), atol=1e-9)
+        assert np.isnan(plot.data[1][:8]).all()
+        assert np.isfinite(plot.data[1][8:]).all()
+    assert (bench.plots[0].data[1][8:] == 100).all()
+    assert "Computing" not in client.text()
+    assert f"Means, {FRAMES - 8} pairs with {100 * (FRAMES - 8)} flow points" in client.text()
+
+
+def test_the_values_at_the_frame_are_said_and_a_line_is_drawn_there(client):
+    bench = Bench(client)
+    bench.fill()
+    bench.panel.show(shown(bench.opened, frame=13))
+    assert f"left: {100 * 13 / (FRAMES - 1):.3f}%" in client.text()
+    assert ">100<" in client.text()
+    bench.panel.show(shown(bench.opened, frame=3))
+    assert ">100<" not in client.text()
+
+
+def test_moving_on_draws_no_plot_again(client):
+    bench = Bench(client)
+    bench.fill()
+    client.take_sent()
+    bench.panel.show(shown(bench.opened, frame=21))
+    size = sum(len(str(message)) for message in client.take_sent())
+    assert 0 < size < 8000
+
+
+def test_what_was_left_is_not_plotted(client):
+    bench = Bench(client)
+    bench.fill()
+    late = list(bench.wishes)
+    bench.wishes.clear()
+    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
+    for wish in late:
+        wish.fulfil(bench)
+    assert bench.panel.survey is None
+    bench.fill()
+    assert (bench.plots[0].data[1][8:] == 0).all()
+
+
+def test_without_truth_the_plots_that_need_none_stay_and_it_says_so(client):
+    fake = fake_recording()
+    fake.has_truth = False
+    fake.truth = lambda _: None
+    fake.pair_truth = lambda *_: None
+    bench = Bench(client, fake)
+    assert [plot.visible for plot in bench.plots] == [True, True, False, False, False]
+    bench.fill()
+    assert "No truth in this recording" in client.text()
+    assert (bench.plots[0].data[1][8:] == 100).all()
+
+
+def test_a_time_leads_to_the_nearest_frame(client):
+    class Workbench:
+        opened = fake_opened()
+        frame = None
+
+        def seek(self, frame):
+            self.frame = frame
+
+    bench = Workbench()
+    SeekTime(1.0).fulfil(bench)  # pyright: ignore[reportArgumentType]
+    assert bench.frame == 15
+    SeekTime(1e9).fulfil(bench)  # pyright: ignore[reportArgumentType]
+    assert bench.frame == FRAMES - 1
+
+
+def test_the_number_field_posts_a_time(client):
+    bench = Bench(client)
+    client.change("Go to [s]", 1.25)
+    until(lambda: SeekTime(1.25) in bench.wishes)
+
+
+def test_the_file_is_that_of_what_is_plotted(client):
+    bench = Bench(client)
+    bench.fill()
+    bench.wishes.clear()
+    client.press("Save as CSV")
+    until(lambda: bench.wishes)
+    assert bench.wishes == [SavePlots(bench.panel)]
+    bench.wishes[0].fulfil(bench)
+    name, content = client.downloads[0]
+    assert name == "fake_plots.csv"
+    assert len(content.decode().splitlines()) == FRAMES + 2
+
+
+def test_the_summary_says_what_evaluate_says():
+    opened, parameters = fake_opened(), Parameters()
+    metrics = evaluate(opened.recording, parameters)
+    assert metrics is not None
+    said = summary(filled(opened, parameters, Estimates()), has_truth=True)
+    numbers = re.findall(r"tabular-nums\">([^<]+)<", said)
+    assert numbers == [
+        f"{metrics.angle_deg:.2f}",
+        f"{metrics.velocity_error:.4f}",
+        f"{metrics.coverage:.3f}",
+        f"{metrics.precision:.3f}",
+    ]
+
+
+def test_a_recording_none_of_whose_pairs_counts_says_so():
+    fake = fake_recording()
+    fake.truth = lambda _: np.zeros(3)
+    said = summary(filled(fake_opened(fake), Parameters()), has_truth=True)
+    assert "No pair counts" in said
+
+
+def test_while_it_is_filled_it_says_how_far_it_is():
+    survey = Survey(fake_recording(), Parameters())
+    assert f"8 of {FRAMES} frames" in summary(survey, has_truth=True)
+    assert "width: 20%" in summary(survey, has_truth=True)
+
+
+@pytest.mark.parametrize(("largest", "top"), [(0.15, 0.2), (6.6, 10), (5.0, 5), (1530, 2000)])
+def test_axes_end_at_round_numbers(client, largest, top):
+    bench = Bench(client)
+    survey = Survey(fake_recording(), Parameters())
+    survey.angle_deg[10] = largest
+    asked: Any = bench.panel._asked
+    bench.panel.plot(asked, survey)
+    scales: Any = bench.plots[2].scales
+    assert scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))

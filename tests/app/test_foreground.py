@@ -1,0 +1,46 @@
+import threading
+import time
+
+import pytest
+
+from app.foreground import Foreground
+
+
+def waits(foreground: Foreground, seconds: float) -> float:
+    begin = time.monotonic()
+    foreground.wait_until_quiet(seconds)
+    return time.monotonic() - begin
+
+
+def test_where_nobody_works_nobody_waits():
+    assert waits(Foreground(), 5.0) < 1.0
+
+
+def test_it_waits_for_the_time_of_quiet_after_the_work():
+    foreground = Foreground()
+    with foreground:
+        pass
+    assert waits(foreground, 0.2) > 0.15
+
+
+def test_it_waits_for_work_that_is_under_way():
+    foreground, ended = Foreground(), threading.Event()
+
+    def work():
+        with foreground:
+            started.set()
+            time.sleep(0.2)
+            ended.set()
+
+    started = threading.Event()
+    threading.Thread(target=work).start()
+    started.wait()
+    foreground.wait_until_quiet(0.0)
+    assert ended.is_set()
+
+
+def test_work_that_fails_has_ended():
+    foreground = Foreground()
+    with pytest.raises(ValueError, match="broken"), foreground:
+        raise ValueError("broken")
+    foreground.wait_until_quiet(0.0)

@@ -1,0 +1,147 @@
+import time
+
+import numpy as np
+import pytest
+
+import app.estimates
+from app.estimates import Estimates
+from app.surveys import Surveys
+from estimator import Parameters
+from recordings import RecordingError
+from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
+
+
+def until(condition, timeout=20.0):
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.01)
+
+
+class Listener:
+    """Keeps what it is told."""
+
+    def __init__(self):
+        self.told = []
+
+    def __call__(self, survey):
+        self.told.append((int(survey.done.sum()), survey))
+
+    @property
+    def complete(self):
+        return bool(self.told) and self.told[-1][1].complete
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """The parameters of every run of the estimator."""
+    found = []
+    real = app.estimates.estimate_scene_flow
+
+    def run(source, target, interval, parameters):
+        found.append(parameters)
+        return real(source, target, interval, parameters)
+
+    monkeypatch.setattr(app.estimates, "estimate_scene_flow", run)
+    return found
+
+
+def test_a_survey_is_filled_and_told(runs):
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(), Parameters(), listener)
+    until(lambda: listener.complete)
+    assert (listener.told[-1][1].moving[8:] == 100).all()
+    assert len(runs) == FRAMES - 8
+    until(lambda: surveys._thread is None)  # nothing runs where nobody asks
+
+
+def test_what_was_computed_is_not_computed_again(runs):
+    estimates, opened = Estimates(), fake_opened()
+    estimates.estimated(opened, 20, Parameters())
+    surveys, listener = Surveys(estimates), Listener()
+    surveys.ask("me", opened, Parameters(), listener)
+    until(lambda: listener.complete)
+    assert len(runs) == FRAMES - 8
+    estimates.estimated(opened, 30, Parameters())  # scrubbing
+    again = Listener()
+    surveys.ask("you", opened, Parameters(), again)
+    until(lambda: again.complete)
+    assert again.told[-1][1] is listener.told[-1][1]
+    assert len(runs) == FRAMES - 8
+
+
+def test_the_next_question_takes_the_place_of_the_last(runs):
+    estimates = Estimates()
+    surveys, first, second = Surveys(estimates), Listener(), Listener()
+    opened = fake_opened()
+    surveys.ask("me", opened, Parameters(), first)
+    until(lambda: first.told)
+    surveys.ask("me", opened, Parameters(delta=0.05), second)
+    count = len(first.told)
+    until(lambda: second.complete)
+    assert len(first.told) <= count + 1  # one may have been on its way
+    assert not first.complete
+    assert runs.count(Parameters()) < FRAMES - 8
+
+
+def test_whoever_leaves_is_told_nothing_more():
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(), Parameters(), listener)
+    until(lambda: listener.told)
+    surveys.leave("me")
+    until(lambda: surveys._thread is None)
+    assert not listener.complete
+
+
+def test_two_who_ask_share_the_work(runs):
+    surveys, opened = Surveys(Estimates()), fake_opened()
+    listeners = [Listener(), Listener()]
+    for number, listener in enumerate(listeners):
+        surveys.ask(number, opened, Parameters(), listener)
+    until(lambda: all(listener.complete for listener in listeners))
+    assert len(runs) == FRAMES - 8
+
+
+def test_it_stands_back_while_somebody_waits_for_an_estimate():
+    estimates, listener = Estimates(), Listener()
+    surveys = Surveys(estimates)
+    with estimates.foreground:
+        surveys.ask("me", fake_opened(), Parameters(), listener)
+        time.sleep(0.3)
+        assert listener.told == []
+    until(lambda: listener.complete)
+
+
+def test_a_broken_frame_is_a_gap():
+    fake = fake_recording()
+    whole = fake.cloud
+
+    def cloud(k, max_range=4.0):
+        if k == 25:
+            raise RecordingError("it is broken at frame 25.")
+        return whole(k, max_range)
+
+    fake.cloud = cloud
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    until(lambda: listener.complete)
+    gaps = np.flatnonzero(np.isnan(listener.told[-1][1].moving))
+    assert gaps.tolist() == [*range(8), 25, 33]
+
+
+def test_a_recording_that_was_closed_leaves_no_gap_behind():
+    estimates, listener = Estimates(), Listener()
+    surveys, fake = Surveys(estimates), fake_recording()
+    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    until(lambda: listener.told)
+    surveys.leave("me")
+
+    def closed(*_):
+        raise ValueError("read of a closed file")
+
+    fake.cloud = closed
+    until(lambda: surveys._thread is None)
+    again = Listener()
+    surveys.ask("me", fake_opened(), Parameters(), again)
+    until(lambda: again.complete)
+    assert (again.told[-1][1].moving[8:] == 100).all()

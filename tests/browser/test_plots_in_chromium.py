@@ -1,0 +1,62 @@
+import numpy as np
+from playwright.sync_api import Page
+
+from tests.browser.tab import Tab
+
+_DATA = """() => Object.values(window.__viserTestpoints.uplots)
+  .map(({chart}) => chart.data.map(values => Array.from(values)))"""
+_CURSOR = """() => parseFloat(getComputedStyle(document.querySelector('.u-over'), '::after').left)
+  / document.querySelector('.u-over').clientWidth"""
+
+
+def plots(page: Page) -> list[np.ndarray]:
+    """The data of all plots: times, then the values of each line."""
+    return [np.array(data, dtype=float) for data in page.evaluate(_DATA)]
+
+
+def filled(tab: Tab) -> None:
+    tab.until(lambda: tab.has_text("Means,"))
+
+
+def test_the_whole_recording_is_plotted_and_a_change_of_parameters_plots_it_again(tab: Tab):
+    tab.choose("robot_moving")
+    tab.until(lambda: tab.has_text("Simulated: robot_moving"))
+    filled(tab)
+    shown = plots(tab.page)
+    assert len(shown) == 5
+    last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
+    assert all(len(data[0]) == last + 1 for data in shown)
+    moving = max(shown, key=lambda data: np.nanmax(data[1]))[1]
+    assert np.isnan(moving[:8]).all()
+    assert np.nanmax(moving) > 50
+    tab.set_slider("δ", "End")
+    tab.until(lambda: max(np.nan_to_num(data[1:]).max() for data in plots(tab.page)) <= 1)
+
+
+def test_a_click_in_a_plot_goes_there_and_the_line_follows(tab: Tab):
+    filled(tab)
+    last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
+    for share in (0.75, 0.4, 0.75):
+        plot = tab.page.locator(".u-over").nth(1)
+        box = plot.bounding_box()
+        assert box is not None
+        tab.page.mouse.click(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+        tab.until(lambda share=share: abs(tab.value("Frame") - share * last) < 1)
+        frame = tab.value("Frame")
+        tab.until(lambda frame=frame: abs(tab.page.evaluate(_CURSOR) - frame / last) < 0.02)
+        tab.set_slider("Frame", "Home")
+        tab.until(lambda: tab.page.evaluate(_CURSOR) < 0.01)
+
+
+def test_the_numbers_arrive_as_a_csv_file(tab: Tab):
+    filled(tab)
+    with tab.page.expect_download() as download:
+        tab.page.get_by_role("button", name="Save as CSV").click()
+    assert download.value.suggested_filename.endswith("_plots.csv")
+    lines = download.value.path().read_text().splitlines()
+    assert lines[0].startswith("# Tofscope; recording ")
+    assert "; simulated; n=8; gamma=0.7;" in lines[0]
+    assert "frames computed" not in lines[0]
+    assert "angle deviation [deg]" in lines[1]
+    last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
+    assert len(lines) == last + 3
