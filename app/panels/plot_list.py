@@ -1,14 +1,16 @@
 """Which plots there are, and how they look."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import viser
 
-from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
+from app.colours import Colour, css
 from app.evaluation import COLUMNS
+from app.palettes import Palette
 from app.survey import Survey
 
 _HEIGHT = 58  # pixels
@@ -29,12 +31,12 @@ class Line:
     Attributes:
         label: what people read, empty where the plot's title says it.
         name: attribute of the survey.
-        colour: of the points.
+        colour: of the points, as in the scene where they stand for something in it.
     """
 
     label: str
     name: str
-    colour: Colour
+    colour: Callable[[Palette], Colour]
 
 
 @dataclass(frozen=True)
@@ -57,9 +59,9 @@ class PlotSpec:
     needs_truth: bool
     top: float | None = None
 
-    def heading(self, survey: Survey | None, frame: int) -> str:
+    def heading(self, survey: Survey | None, frame: int, colours: Palette) -> str:
         """HTML: title, and the values at a frame."""
-        values = "".join(self._value(line, survey, frame) for line in self.lines)
+        values = "".join(self._value(line, survey, frame, colours) for line in self.lines)
         unit = f' <span style="opacity: 0.6">[{self.unit}]</span>' if self.unit else ""
         return (
             '<div style="font-size: 0.75rem; padding: 0 1em; display: flex; white-space: nowrap">'
@@ -81,21 +83,32 @@ class PlotSpec:
             "y": {"range": (-0.06 * top, 1.06 * top)},
         }
 
-    def add_to(self, gui: viser.GuiApi, *, with_times: bool) -> viser.GuiUplotHandle:
-        """Add it to a page, its horizontal axis labelled or not."""
-        nothing = np.full(2, np.nan)
-        # Points and no lines, which would bridge what is not defined.
+    def series(self, colours: Palette) -> tuple[dict[str, Any], ...]:
+        """How its times and lines are drawn: points, since lines would bridge what is undefined."""
+        # Of equal values both are seen, the later in front of a larger one.
         sizes = (4,) if len(self.lines) == 1 else (6, 3)
-        series = [
-            {
-                "label": line.label or self.title,
-                "stroke": css(line.colour),
-                "width": 0,
-                # Of equal values both are seen, the later in front of a larger one.
-                "points": {"show": True, "size": size, "width": 0, "fill": css(line.colour)},
-            }
-            for line, size in zip(self.lines, sizes, strict=True)
-        ]
+        return (
+            {},
+            *(
+                {
+                    "label": line.label or self.title,
+                    "stroke": css(line.colour(colours)),
+                    "width": 0,
+                    "points": {
+                        "show": True,
+                        "size": size,
+                        "width": 0,
+                        "fill": css(line.colour(colours)),
+                    },
+                }
+                for line, size in zip(self.lines, sizes, strict=True)
+            ),
+        )
+
+    def add_to(
+        self, gui: viser.GuiApi, colours: Palette, *, with_times: bool
+    ) -> viser.GuiUplotHandle:
+        """Add it to a page, its horizontal axis labelled or not."""
         axis = {"font": _FONT, "ticks": {"size": 3, "width": 1}, "gap": 3}
         options: dict[str, Any] = {
             "scales": self.scales(1.0, None),
@@ -115,36 +128,44 @@ class PlotSpec:
         }
         if not with_times:
             options["axes"][0]["values"] = ()
-        data = (np.array([0.0, 1.0]), *[nothing] * len(series))
-        return gui.add_uplot(data, ({}, *series), **options)  # pyright: ignore[reportArgumentType]
+        data = (np.array([0.0, 1.0]), *[np.full(2, np.nan)] * len(self.lines))
+        series: Any = self.series(colours)
+        return gui.add_uplot(data, series, **options)
 
-    def _value(self, line: Line, survey: Survey | None, frame: int) -> str:
+    def _value(self, line: Line, survey: Survey | None, frame: int, colours: Palette) -> str:
         value = float(getattr(survey, line.name)[frame]) if survey else math.nan
         text = "–" if math.isnan(value) else format(value, self.form)
         return (
             '<span style="width: 0.6em; height: 0.6em; border-radius: 50%; align-self: center;'
-            f' margin: 0 0.4em 0 0.9em; background: {css(line.colour)}"></span>'
+            f' margin: 0 0.4em 0 0.9em; background: {css(line.colour(colours))}"></span>'
             f'{line.label}<span style="font-variant-numeric: tabular-nums; text-align: right;'
             f' margin-left: 0.4em; min-width: 2.5em">{text}</span>'
         )
 
 
+def _flow(colours: Palette) -> Colour:
+    return colours.flow
+
+
 PLOTS = (
-    PlotSpec("Moving points", "", ".0f", (Line("", "moving", FLOW),), False),
+    PlotSpec("Moving points", "", ".0f", (Line("", "moving", _flow),), False),
     PlotSpec(
         "Speed",
         "m/s",
         ".3f",
-        (Line("est.", "speed", FLOW), Line("true", "true_speed", TRUTH)),
+        (Line("est.", "speed", _flow), Line("true", "true_speed", lambda colours: colours.truth)),
         False,
     ),
-    PlotSpec("Angle deviation", "°", ".1f", (Line("", "angle_deg", FLOW),), True),
-    PlotSpec("Velocity error", "m/s", ".3f", (Line("", "velocity_error", FLOW),), True),
+    PlotSpec("Angle deviation", "°", ".1f", (Line("", "angle_deg", _flow),), True),
+    PlotSpec("Velocity error", "m/s", ".3f", (Line("", "velocity_error", _flow),), True),
     PlotSpec(
         "Coverage, precision",
         "",
         ".2f",
-        (Line("cov.", "coverage", TARGET), Line("prec.", "precision", SOURCE)),
+        (
+            Line("cov.", "coverage", lambda colours: colours.category(0)),
+            Line("prec.", "precision", lambda colours: colours.category(1)),
+        ),
         True,
         top=1.0,
     ),

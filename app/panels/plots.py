@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from app.workbench import Workbench
 
 _WIDTH = 300  # pixels
+_NARROW = 900  # pixels of the scene, of which the plots would take too much
 
 
 @dataclass(frozen=True)
@@ -77,9 +78,12 @@ class PlotsPanel(Panel):
         self._desk, gui = desk, desk.client.gui
         self.survey: Survey | None = None
         self._asked: tuple[Opened, Parameters] | None = None
+        self._colours = desk.settings.palette
         panel = gui.add_panel()
         panel.dock_left()
         panel.set_width(_WIDTH)
+        if desk.client.camera.image_width <= _NARROW:
+            panel.minimize()
         with panel.add_tab("Plots", viser.Icon.CHART_DOTS):
             self._summary = gui.add_html("")
             self._cursor = gui.add_html("")
@@ -87,7 +91,7 @@ class PlotsPanel(Panel):
             self._plots: list[viser.GuiUplotHandle] = []
             for plot in PLOTS:
                 self._headings.append(gui.add_html(""))
-                self._plots.append(plot.add_to(gui, with_times=plot is PLOTS[-1]))
+                self._plots.append(plot.add_to(gui, self._colours, with_times=plot is PLOTS[-1]))
             self._time = gui.add_number(
                 "Go to [s]",
                 0.0,
@@ -136,8 +140,12 @@ class PlotsPanel(Panel):
         stamps = shown.opened.recording.stamps
         share = (stamps[shown.frame] - stamps[0]) / _seconds(stamps)
         self._cursor.content = cursor(float(share))
-        for plot, heading, _ in self._each():
-            heading.content = plot.heading(self.survey, shown.frame)
+        colours, before = shown.settings.palette, self._colours
+        self._colours = colours
+        for plot, heading, handle in self._each():
+            heading.content = plot.heading(self.survey, shown.frame, colours)
+            if colours is not before:
+                handle.series = plot.series(colours)
 
     def plot(self, asked: tuple[Opened, Parameters], survey: Survey) -> None:
         """Show what is known by now, unless something else was asked for meanwhile."""

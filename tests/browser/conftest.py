@@ -30,7 +30,7 @@ _FLAGS = [
     "--ignore-gpu-blocklist",
 ]
 # What a test asks is in the scene tree; drawing it in software would only take time.
-_NO_DRAWING = """
+NO_DRAWING = """
 for (const context of [WebGLRenderingContext, WebGL2RenderingContext])
   for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced",
                       "drawRangeElements"])
@@ -75,7 +75,7 @@ def server(
 def context(chromium: Browser) -> Iterator[BrowserContext]:
     context = chromium.new_context(viewport={"width": 900, "height": 700}, accept_downloads=True)
     context.set_default_timeout(60_000)
-    context.add_init_script(_NO_DRAWING)
+    context.add_init_script(NO_DRAWING)
     yield context
     context.close()
 

@@ -1,12 +1,26 @@
-import numpy as np
-from playwright.sync_api import Page
+from collections.abc import Iterator
 
+import numpy as np
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page
+
+from tests.browser.conftest import NO_DRAWING
 from tests.browser.tab import Tab
 
 _DATA = """() => Object.values(window.__viserTestpoints.uplots)
   .map(({chart}) => chart.data.map(values => Array.from(values)))"""
 _CURSOR = """() => parseFloat(getComputedStyle(document.querySelector('.u-over'), '::after').left)
   / document.querySelector('.u-over').clientWidth"""
+
+
+@pytest.fixture
+def context(chromium: Browser) -> Iterator[BrowserContext]:
+    """A window that is wide enough for the plots to be open."""
+    context = chromium.new_context(viewport={"width": 1280, "height": 720}, accept_downloads=True)
+    context.set_default_timeout(60_000)
+    context.add_init_script(NO_DRAWING)
+    yield context
+    context.close()
 
 
 def plots(page: Page) -> list[np.ndarray]:

@@ -73,3 +73,22 @@ def test_angles_do_not_depend_on_lengths(angle: float, a: float, b: float):
     u = np.array([[a, 0.0, 0.0]])
     v = b * np.array([[np.cos(angle), np.sin(angle), 0.0]])
     assert angles_deg(u, v)[0] == pytest.approx(np.degrees(angle), abs=1e-6)
+
+
+def test_pairs_collected_apart_are_the_same_to_the_last_bit():
+    generator = np.random.default_rng(3)
+    together, apart = PooledErrors(), PooledErrors()
+    for size in (5, 0, 31, 200):
+        label = generator.integers(0, 3, size)
+        velocity = generator.normal(size=(size, 3))
+        velocity[label != Label.MOVING] = np.nan
+        found = SceneFlow(label, velocity, np.zeros(size, dtype=np.int64), ())
+        truth = generator.normal(size=(size, 3))
+        points = generator.normal(size=(size, 3)) * generator.integers(0, 2, (size, 1))
+        one = PooledErrors()
+        for errors in (together, one):
+            errors.add(found, 0.5, truth, points)
+        apart.include(one.sums)
+    assert apart.metrics() == together.metrics()
+    assert apart.metrics().pairs == 4
+    assert apart.metrics().points_with_flow > 50

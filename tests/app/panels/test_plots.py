@@ -1,13 +1,16 @@
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from app.colours import css
 from app.estimates import Estimates
 from app.evaluation import evaluate
 from app.panels.plot_list import summary
 from app.panels.plots import PlotsPanel, SavePlots, SeekTime, ShowSurvey
+from app.scene.settings import ViewSettings
 from app.survey import Survey
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
@@ -167,3 +170,16 @@ def test_axes_end_at_round_numbers(client, largest, top):
     bench.panel.plot(asked, survey)
     scales: Any = bench.plots[2].scales
     assert scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
+
+
+def test_plots_have_the_colours_of_the_scene(client):
+    bench = Bench(client)
+    dark = replace(ViewSettings(), dark=True)
+    light, bright = css(ViewSettings().palette.flow), css(dark.palette.flow)
+    assert light != bright
+    assert bench.plots[0].series[1]["stroke"] == light
+    bench.panel.show(replace(shown(bench.opened), settings=dark))
+    assert bench.plots[0].series[1]["stroke"] == bright
+    assert bench.plots[0].series[1]["points"]["fill"] == bright
+    assert f"background: {bright}" in client.text()
+    assert f"background: {light}" not in client.text()
