@@ -83,7 +83,7 @@ class PlotSpec:
             "y": {"range": (-0.06 * top, 1.06 * top)},
         }
 
-    def series(self, colours: Palette) -> tuple[dict[str, Any], ...]:
+    def series(self, colours: Palette) -> Any:  # noqa: ANN401 (viser's dictionaries)
         """How its times and lines are drawn: points, since lines would bridge what is undefined."""
         # Of equal values both are seen, the later in front of a larger one.
         sizes = (4,) if len(self.lines) == 1 else (6, 3)
@@ -129,8 +129,7 @@ class PlotSpec:
         if not with_times:
             options["axes"][0]["values"] = ()
         data = (np.array([0.0, 1.0]), *[np.full(2, np.nan)] * len(self.lines))
-        series: Any = self.series(colours)
-        return gui.add_uplot(data, series, **options)
+        return gui.add_uplot(data, self.series(colours), **options)
 
     def _value(self, line: Line, survey: Survey | None, frame: int, colours: Palette) -> str:
         value = float(getattr(survey, line.name)[frame]) if survey else math.nan

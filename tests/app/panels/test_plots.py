@@ -39,7 +39,7 @@ class Bench:
         self.fulfil()
 
     @property
-    def plots(self):
+    def plots(self) -> Any:
         return self.panel._plots
 
 
@@ -168,8 +168,7 @@ def test_axes_end_at_round_numbers(client, largest, top):
     survey.angle_deg[10] = largest
     asked: Any = bench.panel._asked
     bench.panel.plot(asked, survey)
-    scales: Any = bench.plots[2].scales
-    assert scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
+    assert bench.plots[2].scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
 
 
 def test_plots_have_the_colours_of_the_scene(client):
