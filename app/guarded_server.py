@@ -34,6 +34,11 @@ class GuardedServer(viser.ViserServer):
         with _starting, _quiet(), _refusing_foreign_pages(host):
             super().__init__(host=host, port=port, label=label, verbose=False)
 
+    @property
+    def camera(self) -> viser.InitialCameraConfig:
+        """From where clients see the server's scene at first; with it, a scene can be drawn."""
+        return self.initial_camera
+
     def stop(self) -> None:
         """Close all connections and free the port."""
         with _starting, _quiet():

@@ -1,0 +1,174 @@
+"""`tofscope export`: pictures, and a page that plays offline, with no one at a browser."""
+
+import argparse
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.errors import InputError
+from app.parameter_flags import add_parameter_flags, parameters_from
+from app.recording_flags import add_recording_flags, opening_from
+from estimator import Parameters
+
+if TYPE_CHECKING:
+    from app.library import Opened
+
+_SIDE = (16, 7680)  # pixels
+
+
+def add_parser(commands: argparse._SubParsersAction) -> None:
+    """Add the subcommand."""
+    parser = commands.add_parser(
+        "export",
+        help="make a picture or an offline page of a recording",
+        description=(
+            "Draw a recording as the app does: a frame as a PNG picture, which needs Chromium, "
+            "or all frames as one HTML page, which plays in any browser without network. The "
+            "files say of themselves which recording they show, and with which parameters."
+        ),
+    )
+    parser.add_argument("path", type=Path, metavar="PATH", help="a recording")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--screenshot", type=Path, metavar="FILE.png", help="make a picture")
+    what.add_argument("--html", type=Path, metavar="FILE.html", help="make an offline page")
+    picture = parser.add_argument_group("a picture")
+    picture.add_argument(
+        "--frame", type=int, metavar="K", help="frame k (default: one at which something moves)"
+    )
+    picture.add_argument(
+        "--size",
+        type=_size,
+        metavar="WIDTHxHEIGHT",
+        help="in pixels (default 1600x900)",
+    )
+    picture.add_argument(
+        "--transparent", action="store_true", help="no background (default: a white one)"
+    )
+    page = parser.add_argument_group("an offline page")
+    page.add_argument(
+        "--frames", type=_range, metavar="FIRST:LAST", help="frames that it plays (default: all)"
+    )
+    add_recording_flags(parser)
+    add_parameter_flags(parser)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the subcommand."""
+    from app.library import Library
+
+    parameters = parameters_from(options)
+    _check_flags(options)
+    _check_place(options.screenshot or options.html)
+    if options.path.is_dir():
+        raise InputError(f"{options.path} is a folder; name one of the recordings in it.")
+    library = Library([options.path], opening_from(options).open)
+    entry = library.listing()[0]
+    opened = library.open(entry)
+    try:
+        if options.screenshot:
+            _export_picture(opened, parameters, options)
+        else:
+            _export_page(opened, parameters, options)
+    finally:
+        library.release(entry)
+    return 0
+
+
+def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
+    from app.estimates import Estimates
+    from app.exports.picture import Framing, picture
+    from app.scene.settings import ViewSettings
+    from app.workbench import opening_frame
+
+    frame = options.frame
+    if frame is None:
+        frame = opening_frame(opened.recording, parameters.n)
+    _check_frame(opened, frame)
+    width, height = options.size or (1600, 900)
+    pair = Estimates().estimated(opened, frame, parameters)
+    framing = Framing(width, height, options.transparent)
+    content = picture(opened, pair, parameters, ViewSettings(), framing)
+    _write(options.screenshot, content)
+    print(f"{options.screenshot}: frame {frame} of {opened.recording.name}, {width} x {height}.")
+
+
+def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
+    from app.estimates import Estimates
+    from app.exports.offline_page import offline_page
+    from app.scene.settings import ViewSettings
+
+    first, last = options.frames or (None, None)
+    first = 0 if first is None else first
+    last = len(opened.recording) - 1 if last is None else last
+    _check_frame(opened, first)
+    _check_frame(opened, last)
+    if first > last:
+        raise InputError(f"The last frame must not be before the first; got {first}:{last}.")
+    frames = range(first, last + 1)
+    page = offline_page(opened, frames, parameters, ViewSettings(), Estimates(), lambda _: None)
+    content = page.encode()
+    _write(options.html, content)
+    print(
+        f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
+        f"{len(content) / 1e6:.1f} MB."
+    )
+
+
+def _check_flags(options: argparse.Namespace) -> None:
+    """Raise InputError for a flag that has no meaning beside what is made."""
+    made, others = (
+        ("--screenshot", ("frames",))
+        if options.screenshot
+        else ("--html", ("frame", "size", "transparent"))
+    )
+    for name in others:
+        if getattr(options, name) not in (None, False):
+            raise InputError(f"--{name} has no meaning beside {made}; leave it out.")
+
+
+def _check_frame(opened: "Opened", frame: int) -> None:
+    last = len(opened.recording) - 1
+    if not 0 <= frame <= last:
+        raise InputError(
+            f"{opened.recording.name} has no frame {frame}: its frames are 0 to {last}."
+        )
+
+
+def _check_place(path: Path) -> None:
+    """Raise InputError where a file cannot be, before anything is computed for it."""
+    folder = path.absolute().parent
+    if path.is_dir():
+        raise InputError(f"{path} cannot be written: it is a folder.")
+    if not folder.is_dir():
+        raise InputError(f"{path} cannot be written: there is no folder {folder}.")
+    if not os.access(path if path.exists() else folder, os.W_OK):
+        raise InputError(f"{path} cannot be written: permission denied.")
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}.") from error
+
+
+def _size(text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    sides = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not all(_SIDE[0] <= side <= _SIDE[1] for side in sides):
+        raise argparse.ArgumentTypeError(
+            f"a size is written 1600x900, each side from {_SIDE[0]} to {_SIDE[1]}, got {text!r}"
+        )
+    return sides
+
+
+def _range(text: str) -> tuple[int | None, int | None]:
+    found = re.fullmatch(r"(\d*):(\d*)", text)
+    if not found:
+        raise argparse.ArgumentTypeError(
+            f"frames are written FIRST:LAST, such as 20:80, got {text!r}"
+        )
+    first, last = found.groups()
+    return (int(first) if first else None, int(last) if last else None)

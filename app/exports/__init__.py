@@ -1,0 +1,1 @@
+"""Files that show a recording without the app: pictures, and a page that plays offline."""

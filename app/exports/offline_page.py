@@ -1,0 +1,142 @@
+"""An animated scene as one HTML file, which a browser opens from disk, without network."""
+
+from collections.abc import Callable, Sequence
+from html import escape
+
+import numpy as np
+
+from app.captions import caption
+from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
+from app.errors import InputError
+from app.estimates import Estimates
+from app.guarded_server import GuardedServer
+from app.library import Opened
+from app.scene.scene import Scene
+from app.scene.settings import ViewSettings
+from estimator import Parameters
+from recordings import Recording
+
+MOST_FRAMES = 3000
+"""A page with more frames would be too large for a browser."""
+
+_FOV = 0.9  # rad, vertical
+
+# Where it begins again or is set back, viser's player lights the scene in its own way until the
+# browser's next image. Messages that are taken at once leave no such image between.
+_NO_FLASH = """<script>
+const waiting = setInterval(() => {
+  const viewer = window.__viserMutable;
+  if (!viewer?.drainMessageQueue || !viewer.requestRender) return;
+  clearInterval(waiting);
+  const render = viewer.requestRender;
+  viewer.requestRender = () => {
+    if (viewer.messageQueue.length > 0) viewer.drainMessageQueue();
+    render();
+  };
+}, 20);
+</script>"""
+
+
+class ExportEndedError(Exception):
+    """Nobody waits for the file any more; a `progress` raises it."""
+
+
+def offline_page(
+    opened: Opened,
+    frames: Sequence[int],
+    parameters: Parameters,
+    settings: ViewSettings,
+    estimates: Estimates,
+    progress: Callable[[int], None],
+) -> str:
+    """The frames of a recording as a page that plays them at the speed of their stamps.
+
+    Args:
+        opened: the recording.
+        frames: k of each frame, increasing; at least one.
+        parameters: of the estimate.
+        settings: of the drawing.
+        estimates: computes and remembers.
+        progress: is told how many frames are drawn.
+
+    Raises:
+        InputError: more frames than a page may have.
+        RecordingError: the recording is broken at one of them.
+        ExportEndedError: from `progress`.
+    """
+    if len(frames) > MOST_FRAMES:
+        raise InputError(
+            f"{len(frames)} frames are too many for one page, which holds {MOST_FRAMES} at most; "
+            "take a part of them with tofscope export --frames FIRST:LAST --html FILE."
+        )
+    recording = opened.recording
+    # The recorder of viser's messages belongs to a server, and hears what is drawn for everybody.
+    server = GuardedServer("127.0.0.1", 0)
+    try:
+        server.gui.configure_theme(show_logo=False, show_share_button=False)
+        server.camera.fov = _FOV
+        scene = Scene(server, settings)
+        scene.open(recording)
+        scene.change(settings)
+        first = estimates.estimated(opened, frames[0], parameters)
+        scene.show(first)
+        scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters))
+        recorder = server.get_scene_serializer()
+        for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
+            progress(index)
+            scene.show(estimates.estimated(opened, k, parameters))
+            recorder.insert_sleep(pause)
+        page = recorder.as_html()
+    finally:
+        server.stop()
+    title = f"{recording.name} (simulated)" if recording.simulated else recording.name
+    page = page.replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
+    end = page.rindex("</body>")
+    added = _legend(recording, frames, parameters, title) + _NO_FLASH
+    return page[:end] + added + page[end:]
+
+
+def _pauses(recording: Recording, frames: Sequence[int]) -> list[float]:
+    """Seconds for which each frame is seen; the last one as long as most others."""
+    pauses = np.diff(recording.stamps[list(frames)])
+    usual = float(np.median(pauses)) if len(pauses) else 0.0
+    return [*map(float, pauses), usual]
+
+
+def _legend(recording: Recording, frames: Sequence[int], parameters: Parameters, title: str) -> str:
+    """A box above the scene: what the colours mean, and what the page shows."""
+    colours = [("source", SOURCE), ("target", TARGET), ("flow", FLOW)]
+    if recording.has_truth:
+        colours.append(("truth", TRUTH))
+    said = dict(caption(recording, parameters, None))
+    said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
+    rows = "".join(_row(name, value) for name, value in said.items())
+    box = (
+        "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 26rem; "
+        "padding: 0.5rem 0.75rem; border-radius: 0.4rem; background: rgba(255, 255, 255, 0.88); "
+        "color: #222; font: 0.8rem/1.5 system-ui, sans-serif; box-shadow: 0 0 0.8rem #0002"
+    )
+    return (
+        f'<details id="about" style="{box}"><summary style="cursor: pointer">'
+        f"<strong>{escape(title)}</strong><br>{' '.join(_dot(*c) for c in colours)}</summary>"
+        f'<table style="border-spacing: 0; margin-top: 0.4rem">{rows}</table>'
+        '<div style="margin-top: 0.4rem">Made with Tofscope. Drag to turn, right button to move, '
+        "wheel to zoom, space to pause.</div></details>"
+    )
+
+
+def _row(name: str, value: str) -> str:
+    # Parameters are JSON, which people need not see.
+    value = value.strip("{}").replace('"', "")
+    return (
+        '<tr style="vertical-align: top"><td style="padding-right: 1em; white-space: nowrap">'
+        f'{escape(name)}</td><td style="overflow-wrap: anywhere">{escape(value)}</td></tr>'
+    )
+
+
+def _dot(name: str, colour: Colour) -> str:
+    return (
+        '<span style="white-space: nowrap; margin-right: 0.7em"><span style="display: inline-block;'
+        f" width: 0.65em; height: 0.65em; border-radius: 50%; background: {css(colour)}; "
+        f'margin-right: 0.35em"></span>{name}</span>'
+    )

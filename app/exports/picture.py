@@ -1,0 +1,124 @@
+"""A picture of the scene as a PNG file, with no one at a browser."""
+
+import io
+import threading
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
+
+from app.captions import caption
+from app.errors import InputError
+from app.estimates import Pair
+from app.exports.chromium import hidden_page
+from app.guarded_server import GuardedServer
+from app.library import Opened
+from app.scene.scene import Scene
+from app.scene.settings import ViewSettings
+from estimator import Parameters
+
+_TIMEOUT = 120.0  # seconds until a picture must be there
+
+
+@dataclass(frozen=True)
+class Framing:
+    """What a picture takes in.
+
+    Attributes:
+        width: pixels.
+        height: pixels.
+        transparent: whether the background is, and not white.
+    """
+
+    width: int
+    height: int
+    transparent: bool = False
+
+
+def picture(
+    opened: Opened, pair: Pair, parameters: Parameters, settings: ViewSettings, framing: Framing
+) -> bytes:
+    """PNG of a pair as the app draws it; what it shows is in the file's text.
+
+    Args:
+        opened: the recording.
+        pair: of one of its frames, estimated.
+        parameters: of the estimate.
+        settings: of the drawing.
+        framing: of the picture.
+
+    Raises:
+        InputError: there is no Chromium, or it gives no picture.
+    """
+    server = GuardedServer("127.0.0.1", 0)
+    try:
+        arrived = threading.Event()
+        clients: list[viser.ClientHandle] = []
+
+        @server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            clients.append(client)
+            arrived.set()
+
+        address = f"http://127.0.0.1:{server.get_port()}"
+        # The size of points follows the window, which is why it is as large as the picture.
+        with hidden_page(address, framing.width, framing.height):
+            if not arrived.wait(_TIMEOUT):
+                raise InputError(f"Chromium did not show the scene within {_TIMEOUT:.0f} s.")
+            client = clients[0]
+            with client.atomic():
+                scene = Scene(client, settings)
+                scene.open(opened.recording)
+                scene.change(settings)
+                scene.show(pair)
+                scene.place_camera(pair)
+            pixels = _settled(client, framing)
+    finally:
+        server.stop()
+    return png(pixels, caption(opened.recording, parameters, pair.frame), framing.transparent)
+
+
+def png(pixels: NDArray[np.uint8], said: Mapping[str, str], transparent: bool) -> bytes:
+    """PNG of an image (H, W, 4), its background transparent or white, with text in it."""
+    image = Image.fromarray(pixels).convert("RGBA")
+    if not transparent:
+        white = Image.new("RGBA", image.size, "white")
+        white.alpha_composite(image)
+        image = white.convert("RGB")
+    text = PngInfo()
+    for name, value in {**said, "Software": "Tofscope"}.items():
+        text.add_text(name, value)
+    data = io.BytesIO()
+    image.save(data, "PNG", optimize=True, pnginfo=text)
+    return data.getvalue()
+
+
+def _settled(client: viser.ClientHandle, framing: Framing) -> NDArray[np.uint8]:
+    """The picture (H, W, 4), once it does not change any more."""
+    end = time.monotonic() + _TIMEOUT
+    camera = client.camera
+    # The browser reports its camera with rounded numbers, from which it would be set anew.
+    position, wxyz, fov = camera.position, camera.wxyz, camera.fov
+    before: NDArray[np.uint8] | None = None
+    while (left := end - time.monotonic()) > 0:
+        try:
+            pixels = client.get_render(
+                framing.height,
+                framing.width,
+                position=position,
+                wxyz=wxyz,
+                fov=fov,
+                transport_format="png",
+                timeout=left,
+            )
+        except (RuntimeError, TimeoutError) as error:
+            raise InputError(f"Chromium gave no picture ({error}).") from error
+        if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):
+            return pixels
+        before = pixels
+    raise InputError(f"Chromium gave no picture that keeps still within {_TIMEOUT:.0f} s.")
