@@ -14,6 +14,7 @@ from estimator import Parameters
 if TYPE_CHECKING:
     from app.library import Opened
 
+_VIEWS = ("3d", "top", "front", "robot")
 _SIDE = (16, 7680)  # pixels
 
 
@@ -32,6 +33,12 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--screenshot", type=Path, metavar="FILE.png", help="make a picture")
     what.add_argument("--html", type=Path, metavar="FILE.html", help="make an offline page")
+    parser.add_argument(
+        "--view",
+        choices=_VIEWS,
+        default="3d",
+        help="where the camera stands: at a slant, above, before the robot, on its skin",
+    )
     picture = parser.add_argument_group("a picture")
     picture.add_argument(
         "--frame", type=int, metavar="K", help="frame k (default: one at which something moves)"
@@ -88,7 +95,7 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     _check_frame(opened, frame)
     width, height = options.size or (1600, 900)
     pair = Estimates().estimated(opened, frame, parameters)
-    framing = Framing(width, height, options.transparent)
+    framing = Framing(width, height, _view(options), options.transparent)
     content = picture(opened, pair, parameters, ViewSettings(), framing)
     _write(options.screenshot, content)
     print(f"{options.screenshot}: frame {frame} of {opened.recording.name}, {width} x {height}.")
@@ -107,13 +114,27 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
     if first > last:
         raise InputError(f"The last frame must not be before the first; got {first}:{last}.")
     frames = range(first, last + 1)
-    page = offline_page(opened, frames, parameters, ViewSettings(), Estimates(), lambda _: None)
+    page = offline_page(
+        opened,
+        frames,
+        parameters,
+        ViewSettings(),
+        _view(options),
+        Estimates(),
+        lambda _: None,
+    )
     content = page.encode()
     _write(options.html, content)
     print(
         f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
         f"{len(content) / 1e6:.1f} MB."
     )
+
+
+def _view(options: argparse.Namespace) -> str:
+    from app.scene.views import VIEWS
+
+    return next(view for view in VIEWS if view.lower() == options.view)
 
 
 def _check_flags(options: argparse.Namespace) -> None:

@@ -6,20 +6,19 @@ from html import escape
 import numpy as np
 
 from app.captions import caption
-from app.colours import FLOW, SOURCE, TARGET, TRUTH, Colour, css
+from app.colours import Colour, css
 from app.errors import InputError
 from app.estimates import Estimates
 from app.guarded_server import GuardedServer
 from app.library import Opened
 from app.scene.scene import Scene
-from app.scene.settings import ViewSettings
+from app.scene.settings import ONE_COLOUR, ViewSettings
+from app.theme import dress
 from estimator import Parameters
 from recordings import Recording
 
 MOST_FRAMES = 3000
 """A page with more frames would be too large for a browser."""
-
-_FOV = 0.9  # rad, vertical
 
 # Where it begins again or is set back, viser's player lights the scene in its own way until the
 # browser's next image. Messages that are taken at once leave no such image between.
@@ -46,6 +45,7 @@ def offline_page(
     frames: Sequence[int],
     parameters: Parameters,
     settings: ViewSettings,
+    view: str,
     estimates: Estimates,
     progress: Callable[[int], None],
 ) -> str:
@@ -56,6 +56,7 @@ def offline_page(
         frames: k of each frame, increasing; at least one.
         parameters: of the estimate.
         settings: of the drawing.
+        view: where the camera stands at first, one of `VIEWS`.
         estimates: computes and remembers.
         progress: is told how many frames are drawn.
 
@@ -73,26 +74,25 @@ def offline_page(
     # The recorder of viser's messages belongs to a server, and hears what is drawn for everybody.
     server = GuardedServer("127.0.0.1", 0)
     try:
-        server.gui.configure_theme(show_logo=False, show_share_button=False)
-        server.camera.fov = _FOV
+        dress(server.gui, settings.dark)
         scene = Scene(server, settings)
         scene.open(recording)
         scene.change(settings)
         first = estimates.estimated(opened, frames[0], parameters)
         scene.show(first)
-        scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters))
+        scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), view)
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)
             scene.show(estimates.estimated(opened, k, parameters))
             recorder.insert_sleep(pause)
-        page = recorder.as_html()
+        page = recorder.as_html(dark_mode=settings.dark)
     finally:
         server.stop()
     title = f"{recording.name} (simulated)" if recording.simulated else recording.name
     page = page.replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")
-    added = _legend(recording, frames, parameters, title) + _NO_FLASH
+    added = _legend(recording, frames, parameters, settings, title) + _NO_FLASH
     return page[:end] + added + page[end:]
 
 
@@ -103,22 +103,39 @@ def _pauses(recording: Recording, frames: Sequence[int]) -> list[float]:
     return [*map(float, pauses), usual]
 
 
-def _legend(recording: Recording, frames: Sequence[int], parameters: Parameters, title: str) -> str:
+def _legend(
+    recording: Recording,
+    frames: Sequence[int],
+    parameters: Parameters,
+    settings: ViewSettings,
+    title: str,
+) -> str:
     """A box above the scene: what the colours mean, and what the page shows."""
-    colours = [("source", SOURCE), ("target", TARGET), ("flow", FLOW)]
+    palette = settings.palette
+    colours = {
+        "source": palette.source,
+        "stationary": palette.stationary,
+        "unassigned": palette.unassigned,
+        "target": palette.target,
+    }
+    if settings.arrow_colours == ONE_COLOUR:
+        colours["flow"] = palette.flow
     if recording.has_truth:
-        colours.append(("truth", TRUTH))
+        colours["truth"] = palette.truth
+    ink, paper = ("#ddd", "rgba(30, 30, 34, 0.88)") if settings.dark else ("#222", "#ffffffe0")
     said = dict(caption(recording, parameters, None))
     said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
     rows = "".join(_row(name, value) for name, value in said.items())
     box = (
         "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 26rem; "
-        "padding: 0.5rem 0.75rem; border-radius: 0.4rem; background: rgba(255, 255, 255, 0.88); "
-        "color: #222; font: 0.8rem/1.5 system-ui, sans-serif; box-shadow: 0 0 0.8rem #0002"
+        "padding: 0.5rem 0.75rem; border-radius: 0.4rem; "
+        f"background: {paper}; color: {ink}; "
+        "font: 0.8rem/1.5 system-ui, sans-serif; box-shadow: 0 0 0.8rem #0002"
     )
+    dots = " ".join(_dot(name, colour) for name, colour in colours.items())
     return (
         f'<details id="about" style="{box}"><summary style="cursor: pointer">'
-        f"<strong>{escape(title)}</strong><br>{' '.join(_dot(*c) for c in colours)}</summary>"
+        f"<strong>{escape(title)}</strong><br>{dots}</summary>"
         f'<table style="border-spacing: 0; margin-top: 0.4rem">{rows}</table>'
         '<div style="margin-top: 0.4rem">Made with Tofscope. Drag to turn, right button to move, '
         "wheel to zoom, space to pause.</div></details>"

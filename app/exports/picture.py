@@ -32,11 +32,13 @@ class Framing:
     Attributes:
         width: pixels.
         height: pixels.
+        view: where the camera stands, one of `VIEWS`.
         transparent: whether the background is, and not white.
     """
 
     width: int
     height: int
+    view: str
     transparent: bool = False
 
 
@@ -76,7 +78,7 @@ def picture(
                 scene.open(opened.recording)
                 scene.change(settings)
                 scene.show(pair)
-                scene.place_camera(pair)
+                scene.place_camera(pair, framing.view, framing.width / framing.height)
             pixels = _settled(client, framing)
     finally:
         server.stop()

@@ -1,0 +1,118 @@
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from playwright.sync_api import Browser, Page
+
+from recordings import sample_paths
+from tests.browser.conftest import _NO_DRAWING
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+_NODES = """() => Object.entries(window.__viserSceneTree.getState())
+  .filter(([name, node]) => node.message && node.effectiveVisibility !== false)
+  .map(([name, node]) => [name, node.message.props.points ? node.message.props.points.length : 0])
+"""
+
+
+@pytest.fixture
+def sample() -> Path:
+    return next(path for path in sample_paths() if "sideways" in path.name)
+
+
+def export(*arguments: object) -> str:
+    """Run `tofscope export`, in a process of its own, and return what it says."""
+    command = "import sys; from app.command_line import main; sys.exit(main())"
+    ended = subprocess.run(
+        [sys.executable, "-c", command, "export", *map(str, arguments)],
+        cwd=REPOSITORY,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert (ended.returncode, ended.stderr) == (0, "")
+    return ended.stdout
+
+
+def nodes(page: Page) -> dict[str, int]:
+    """{visible node: how many numbers its points are}."""
+    return dict(page.evaluate(_NODES))
+
+
+def test_an_offline_page_opens_from_disk_without_network_and_plays(
+    chromium: Browser, sample: Path, tmp_path: Path
+):
+    place = tmp_path / "page.html"
+    export(sample, "--html", place)
+    assert place.stat().st_size < 10e6
+    context = chromium.new_context(viewport={"width": 700, "height": 500}, offline=True)
+    context.add_init_script(_NO_DRAWING)
+    page = context.new_page()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(place.as_uri())
+    page.wait_for_selector("canvas[data-engine]")
+    page.wait_for_function(
+        "() => Object.keys(window.__viserSceneTree.getState()).some(n => n.includes('panda_link7'))"
+    )
+    assert page.title() == f"{sample.stem} (simulated)"
+    page.get_by_text(f"{sample.stem} (simulated)").click()
+    assert page.get_by_text("delta: 0.04").is_visible()
+
+    clock = page.locator("input").first
+    shown = {clock.input_value()}
+    for _ in range(20):
+        page.wait_for_timeout(100)
+        shown.add(clock.input_value())
+    assert len(shown) > 5, "it does not play"
+
+    clock.fill("1.4")  # where the object moves
+    page.wait_for_timeout(300)
+    seen = nodes(page)
+    assert seen["/fixed/flow"] > 60
+    assert seen["/fixed/target"] > 300
+    assert sum(name.startswith("/fixed/frustums/") for name in seen) >= 24
+    assert sum(name.startswith("/fixed/robot/") for name in seen) > 10
+    clock.fill("0.1")
+    page.wait_for_timeout(300)
+    assert nodes(page)["/fixed/flow"] == 0
+    assert clock.input_value() == "0.1", "it goes on although it was set to a time"
+    context.close()
+    # Whatever is in the page itself has an address, too, but nothing is asked of anybody.
+    assert {url.partition(":")[0] for url in asked} <= {"file", "data", "blob"}
+
+
+def test_a_picture_is_made_without_a_browser_open_and_is_the_same_twice(
+    sample: Path, tmp_path: Path
+):
+    places = [tmp_path / "a.png", tmp_path / "b.png"]
+    for place in places:
+        said = export(sample, "--frame=20", "--size=400x240", "--n=6", "--screenshot", place)
+        assert said == f"{place}: frame 20 of {sample.stem}, 400 x 240.\n"
+    assert places[0].read_bytes() == places[1].read_bytes()
+    with Image.open(places[0]) as picture:
+        assert (picture.format, picture.mode, picture.size) == ("PNG", "RGB", (400, 240))
+        assert picture.info["Recording"] == sample.stem
+        assert picture.info["Frame"].startswith("20 of ")
+        assert picture.info["Data"].startswith("simulated: sideways")
+        assert json.loads(picture.info["Parameters"])["n"] == 6
+        pixels = np.asarray(picture).astype(int)
+    white = (pixels == 255).all(axis=2)
+    assert 0.3 < white.mean() < 0.99
+    red, green, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
+    assert (green > red + 60).sum() > 30, "there is no flow"
+    assert (blue > red + 60).sum() > 30, "there is no target"
+
+
+def test_a_transparent_picture_from_above(sample: Path, tmp_path: Path):
+    place = tmp_path / "top.png"
+    export(sample, "--size=320x180", "--transparent", "--view=top", "--screenshot", place)
+    with Image.open(place) as picture:
+        assert (picture.mode, picture.size) == ("RGBA", (320, 180))
+        opaque = np.asarray(picture)[..., 3] == 255
+    assert 0.005 < opaque.mean() < 0.7
