@@ -5,6 +5,7 @@ import functools
 import http
 import io
 import ipaddress
+import logging
 import socket
 import threading
 from collections.abc import Callable, Iterator
@@ -31,6 +32,8 @@ class GuardedServer(viser.ViserServer):
     """
 
     def __init__(self, host: str, port: int, label: str | None = None) -> None:
+        # A connection that ends before it asked for anything, as browsers make them, is no error.
+        logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
         with _starting, _quiet(), _refusing_foreign_pages(host):
             super().__init__(host=host, port=port, label=label, verbose=False)
 

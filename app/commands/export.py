@@ -52,6 +52,9 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     picture.add_argument(
         "--transparent", action="store_true", help="no background (default: a white one)"
     )
+    picture.add_argument(
+        "--legend", action="store_true", help="say in the picture what the colours mean"
+    )
     page = parser.add_argument_group("an offline page")
     page.add_argument(
         "--frames", type=_range, metavar="FIRST:LAST", help="frames that it plays (default: all)"
@@ -95,7 +98,7 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     _check_frame(opened, frame)
     width, height = options.size or (1600, 900)
     pair = Estimates().estimated(opened, frame, parameters)
-    framing = Framing(width, height, _view(options), options.transparent)
+    framing = Framing(width, height, _view(options), options.transparent, options.legend)
     content = picture(opened, pair, parameters, ViewSettings(), framing)
     _write(options.screenshot, content)
     print(f"{options.screenshot}: frame {frame} of {opened.recording.name}, {width} x {height}.")
@@ -142,7 +145,7 @@ def _check_flags(options: argparse.Namespace) -> None:
     made, others = (
         ("--screenshot", ("frames",))
         if options.screenshot
-        else ("--html", ("frame", "size", "transparent"))
+        else ("--html", ("frame", "size", "transparent", "legend"))
     )
     for name in others:
         if getattr(options, name) not in (None, False):

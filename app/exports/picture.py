@@ -1,16 +1,12 @@
 """A picture of the scene as a PNG file, with no one at a browser."""
 
-import io
 import threading
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 
 from app.captions import caption
 from app.errors import InputError
@@ -18,6 +14,8 @@ from app.estimates import Pair
 from app.exports.chromium import hidden_page
 from app.guarded_server import GuardedServer
 from app.library import Opened
+from app.pictures import finished, png
+from app.scene.photograph import photograph
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from estimator import Parameters
@@ -34,12 +32,14 @@ class Framing:
         height: pixels.
         view: where the camera stands, one of `VIEWS`.
         transparent: whether the background is, and not white.
+        legend: whether it says what the colours mean.
     """
 
     width: int
     height: int
     view: str
     transparent: bool = False
+    legend: bool = False
 
 
 def picture(
@@ -79,45 +79,23 @@ def picture(
                 scene.change(settings)
                 scene.show(pair)
                 scene.place_camera(pair, framing.view, framing.width / framing.height)
-            pixels = _settled(client, framing)
+            pixels = _settled(client, scene, pair, framing)
+            legend = scene.legend if framing.legend else None
     finally:
         server.stop()
-    return png(pixels, caption(opened.recording, parameters, pair.frame), framing.transparent)
+    image = finished(pixels, transparent=framing.transparent, legend=legend)
+    return png(image, caption(opened.recording, parameters, pair.frame))
 
 
-def png(pixels: NDArray[np.uint8], said: Mapping[str, str], transparent: bool) -> bytes:
-    """PNG of an image (H, W, 4), its background transparent or white, with text in it."""
-    image = Image.fromarray(pixels).convert("RGBA")
-    if not transparent:
-        white = Image.new("RGBA", image.size, "white")
-        white.alpha_composite(image)
-        image = white.convert("RGB")
-    text = PngInfo()
-    for name, value in {**said, "Software": "Tofscope"}.items():
-        text.add_text(name, value)
-    data = io.BytesIO()
-    image.save(data, "PNG", optimize=True, pnginfo=text)
-    return data.getvalue()
-
-
-def _settled(client: viser.ClientHandle, framing: Framing) -> NDArray[np.uint8]:
+def _settled(
+    client: viser.ClientHandle, scene: Scene, pair: Pair, framing: Framing
+) -> NDArray[np.uint8]:
     """The picture (H, W, 4), once it does not change any more."""
     end = time.monotonic() + _TIMEOUT
-    camera = client.camera
-    # The browser reports its camera with rounded numbers, from which it would be set anew.
-    position, wxyz, fov = camera.position, camera.wxyz, camera.fov
     before: NDArray[np.uint8] | None = None
-    while (left := end - time.monotonic()) > 0:
+    while time.monotonic() < end:
         try:
-            pixels = client.get_render(
-                framing.height,
-                framing.width,
-                position=position,
-                wxyz=wxyz,
-                fov=fov,
-                transport_format="png",
-                timeout=left,
-            )
+            pixels = photograph(client, scene, pair, framing.view, framing.width, framing.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(f"Chromium gave no picture ({error}).") from error
         if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):

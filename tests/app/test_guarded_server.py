@@ -1,4 +1,5 @@
 import inspect
+import logging
 import socket
 
 import pytest
@@ -59,3 +60,15 @@ def test_a_name_that_points_at_this_machine_does_not_make_a_page_ours():
 
 def test_other_servers_of_the_process_are_left_as_they_were(server: GuardedServer):
     assert inspect.isclass(websocket_server.serve)
+
+
+def test_a_connection_that_asks_for_nothing_is_not_complained_of(
+    server: GuardedServer, caplog: pytest.LogCaptureFixture
+):
+    # viser begins to filter such complaints with the first request that it answers.
+    logging.getLogger("websockets.server").filters.clear()
+    port = server.get_port()
+    with socket.create_connection(("127.0.0.1", port), timeout=5):
+        pass
+    assert greeted("127.0.0.1", port, None)
+    assert not [record for record in caplog.records if record.levelno > logging.INFO]
