@@ -89,15 +89,15 @@ def run(options: argparse.Namespace) -> int:
 def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
     from app.estimates import Estimates
     from app.exports.picture import Framing, picture
+    from app.opening import telling_frame
     from app.scene.settings import ViewSettings
-    from app.workbench import opening_frame
 
-    frame = options.frame
+    estimates, frame = Estimates(), options.frame
     if frame is None:
-        frame = opening_frame(opened.recording, parameters.n)
+        frame = telling_frame(opened, parameters, estimates)
     _check_frame(opened, frame)
     width, height = options.size or (1600, 900)
-    pair = Estimates().estimated(opened, frame, parameters)
+    pair = estimates.estimated(opened, frame, parameters)
     framing = Framing(width, height, _view(options), options.transparent, options.legend)
     content = picture(opened, pair, parameters, ViewSettings(), framing)
     _write(options.screenshot, content)

@@ -9,7 +9,7 @@ from PIL import Image
 from playwright.sync_api import Browser, Page
 
 from recordings import sample_paths
-from tests.browser.conftest import _NO_DRAWING
+from tests.browser.conftest import NO_DRAWING
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -51,7 +51,7 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
     export(sample, "--html", place)
     assert place.stat().st_size < 10e6
     context = chromium.new_context(viewport={"width": 700, "height": 500}, offline=True)
-    context.add_init_script(_NO_DRAWING)
+    context.add_init_script(NO_DRAWING)
     page = context.new_page()
     asked: list[str] = []
     page.on("request", lambda request: asked.append(request.url))
