@@ -43,13 +43,17 @@ def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
 def changes(of_a: Parameters, of_b: Parameters) -> str:
     """The parameters in which A and B differ, by name."""
     said = [
-        f"{PARAMETER_INFO[field.name].symbol or field.name}: {one} → {two}"
+        f"{PARAMETER_INFO[field.name].symbol or field.name}: {_written(one)} → {_written(two)}"
         for field in fields(Parameters)
         if (one := getattr(of_a, field.name)) != (two := getattr(of_b, field.name))
     ]
     if not said:
         return "<div>B has the same parameters as A.</div>"
     return f"<div>From A to B: {escape(', '.join(said))}</div>"
+
+
+def _written(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
 
 
 def _cells(name: str, of_a: Pair | None, of_b: Pair | None) -> tuple[str, str, str]:

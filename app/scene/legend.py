@@ -52,13 +52,16 @@ class Legend:
     dark: bool = False
 
 
-def legend(pair: Pair | None, settings: ViewSettings, speed_limit: float) -> Legend:
+def legend(
+    pair: Pair | None, settings: ViewSettings, speed_limit: float, second: Pair | None = None
+) -> Legend:
     """The legend of a pair as it is drawn.
 
     Args:
         pair: what is drawn, None where nothing is.
         settings: of the drawing.
         speed_limit: m/s at the end of the ramp of speeds.
+        second: of the same frame with other parameters, whose flow is drawn too.
     """
     palette, layers = settings.palette, settings.layers
     if pair is None:
@@ -78,6 +81,8 @@ def legend(pair: Pair | None, settings: ViewSettings, speed_limit: float) -> Leg
     if "Flow" in layers and pair.flow is not None:
         flow, ramp = _flow(pair, settings, speed_limit)
         marks += flow
+    if "Flow" in layers and second is not None and second.flow is not None:
+        marks.append(Mark(palette.second, "Flow of B"))
     if "Truth" in layers and pair.object_velocity is not None:
         marks.append(Mark(palette.truth, "True velocity"))
     if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:

@@ -118,7 +118,7 @@ class Scene:
     @property
     def legend(self) -> Legend:
         """What the colours mean."""
-        return legend(self._shown, self._settings, self._speed_limit)
+        return legend(self._shown, self._settings, self._speed_limit, self._second)
 
     @contextmanager
     def posed(self, view: View, fov: float, larger: float) -> Iterator[None]:

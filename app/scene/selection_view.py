@@ -14,7 +14,7 @@ from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"
 
-_LARGER = 2.5  # radius of a picked point, against that of the others
+_LARGER = 1.5  # radius of a picked point, against that of the others
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
 _EDGES = np.array(

@@ -50,10 +50,10 @@ def test_what_is_not_known_is_a_dash(estimates):
 
 
 def test_changed_parameters_are_named_and_no_others():
-    said = changes(Parameters(), Parameters(gamma=0.5, method="baseline", min_samples=4))
+    said = changes(Parameters(), Parameters(gamma=0.5, method="baseline", max_range=3.0))
     assert "γ: 0.7 → 0.5" in said
     assert "method: paper → baseline" in said
-    assert "min_samples: None → 4" in said
+    assert "max_range: 4 → 3" in said
     assert "δ" not in said
     assert changes(Parameters(), Parameters()) == "<div>B has the same parameters as A.</div>"
 

@@ -52,6 +52,13 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
     assert f"Flow: cluster {cluster}" in texts(pair, ViewSettings(arrow_colours=BY_CLUSTER))
 
 
+def test_a_second_flow_is_said_where_it_is_drawn(pair):
+    marks = [mark.text for mark in legend(pair, ViewSettings(), 0.3, pair).marks]
+    assert marks.index("Flow of B") == marks.index("Flow: way in 0.5 s") + 1
+    hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
+    assert "Flow of B" not in [mark.text for mark in legend(pair, hidden, 0.3, pair).marks]
+
+
 def test_nothing_drawn_needs_no_legend():
     assert html(legend(None, ViewSettings(), 0.0)) == ""
 
