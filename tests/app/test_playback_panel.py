@@ -80,7 +80,7 @@ def test_the_chosen_speed_is_played(session, client):
     start = time.monotonic()
     client.press("Play")
     until(at(client, FRAMES - 1))
-    assert time.monotonic() - start == pytest.approx(0.4, abs=0.25)
+    assert 0.3 < time.monotonic() - start < 1.8  # 2 s at the recording's own speed
 
 
 def test_a_loop_stays_within_its_range(session, client):
