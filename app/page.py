@@ -10,6 +10,7 @@ from app.panel import Desk, Panel, Shown
 from app.panels.compare import ComparePanel
 from app.panels.explain import ExplainPanel
 from app.panels.legend import LegendPanel
+from app.panels.link import LinkPanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.plots import PlotsPanel
@@ -46,6 +47,7 @@ class Page:
             ViewPanel(desk),
             ScreenshotPanel(desk),
             LegendPanel(desk),
+            LinkPanel(desk),
             PlotsPanel(desk),
         ]
 

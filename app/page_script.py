@@ -23,10 +23,49 @@ if (!window.tofscopeKeys) {
 _HEIGHT = "canvas-height"
 _CANVAS = "document.querySelector('canvas[data-engine]')"
 
+# A server never learns the address of viser's page; what its storage holds it may ask for. The
+# address is cleaned, so that a reload comes back to what was shown last and not to the link.
+_LINK = "link"
+_LINK_TO_STORAGE = f"""
+const query = new URLSearchParams(location.search);
+const link = query.get("{_LINK}");
+if (link !== null) {{
+  localStorage.setItem("viser-user:{_LINK}", link);
+  query.delete("{_LINK}");
+  history.replaceState(null, "", location.pathname + (query.size ? "?" + query : ""));
+}}
+"""
+
+# Browsers open the clipboard to pages of this machine and of https alone.
+_COPY_LINK = """
+const link = `${location.origin}${location.pathname}?%s=%s`;
+const show = () => window.prompt("Copy this link:", link);
+if (navigator.clipboard) navigator.clipboard.writeText(link).catch(show); else show();
+"""
+
 
 def set_up_keys(client: viser.ClientHandle) -> None:
     """Leave keys to a slider that has the focus, and left and right to playback."""
     run(client, _KEYS)
+
+
+def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
+    """The token of the link that the page was opened with, once; None where there is none.
+
+    Raises:
+        RuntimeError: the client has gone, or its browser stores nothing.
+        TimeoutError: it has not answered within `timeout` seconds.
+    """
+    run(client, _LINK_TO_STORAGE)
+    token = client.local_storage.get_item(_LINK, timeout=timeout)
+    if token is not None:
+        client.local_storage.remove_item(_LINK)
+    return token
+
+
+def copy_link(client: viser.ClientHandle, token: str) -> None:
+    """Put the page's address with this token into the clipboard, or show it."""
+    run(client, _COPY_LINK % (_LINK, token))
 
 
 def run(client: viser.ClientHandle, script: str) -> None:

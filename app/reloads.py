@@ -2,24 +2,8 @@
 
 import threading
 from collections import OrderedDict
-from dataclasses import dataclass
 
-from estimator import Parameters
-
-
-@dataclass(frozen=True)
-class Left:
-    """Where a session was when it ended.
-
-    Attributes:
-        label: of the recording in the list.
-        frame: that was shown.
-        parameters: that were set.
-    """
-
-    label: str
-    frame: int
-    parameters: Parameters
+from app.places import Place
 
 
 class Reloads:
@@ -32,16 +16,16 @@ class Reloads:
     def __init__(self, size: int = 64) -> None:
         self._size = size
         self._lock = threading.Lock()
-        self._left: OrderedDict[str, Left] = OrderedDict()
+        self._left: OrderedDict[str, Place] = OrderedDict()
 
-    def leave(self, token: str, left: Left) -> None:
+    def leave(self, token: str, left: Place) -> None:
         """Keep what a session left."""
         with self._lock:
             self._left[token] = left
             while len(self._left) > self._size:
                 self._left.popitem(last=False)
 
-    def take(self, token: str | None) -> Left | None:
+    def take(self, token: str | None) -> Place | None:
         """Hand out what was left under a token, once; None where there is nothing."""
         with self._lock:
             return self._left.pop(token, None) if token is not None else None

@@ -9,14 +9,17 @@ from uuid import uuid4
 
 import viser
 
-from app.errors import UserError
+from app.errors import InputError, UserError
 from app.estimates import Estimates
 from app.library import Library
 from app.mailbox import Mailbox
 from app.page import show_empty_page
-from app.reloads import Left, Reloads
+from app.page_script import take_link
+from app.places import Place, from_token
+from app.reloads import Reloads
+from app.scene.settings import ViewSettings
 from app.surveys import Surveys
-from app.wishes import OpenAny, Seek
+from app.wishes import Arrive, OpenAny
 from app.workbench import Workbench
 from estimator import Parameters
 
@@ -76,41 +79,50 @@ class Session:
             if not entries:
                 show_empty_page(self._client, [str(path) for path in self._shared.library.paths])
                 return
-            token, left = self._arrive()
+            token, place = self._arrive()
             workbench = Workbench(
                 self._client,
                 self._shared.library,
                 self._shared.estimates,
                 self._shared.surveys,
                 entries,
-                left.parameters if left else self._shared.parameters,
+                place.parameters if place else self._shared.parameters,
                 self._shared.parameters,
+                place.settings if place else ViewSettings(),
                 self._mailbox,
             )
             labels = [entry.label for entry in entries]
-            known = left is not None and left.label in labels
-            self._mailbox.post(OpenAny((*([left.label] if left and known else []), *labels)))
-            if left and known:
-                self._mailbox.post(Seek(left.frame))
+            if place and place.label not in labels:
+                self._say(f"The recording {place.label} is not among those that are listed here.")
+                place = None
+            self._mailbox.post(OpenAny((*([place.label] if place else []), *labels)))
+            if place:
+                self._mailbox.post(Arrive(place))
             try:
                 self._serve(workbench)
-            finally:
-                if leaving := workbench.close():
+                if leaving := workbench.place():
                     self._shared.reloads.leave(token, leaving)
+            finally:
+                workbench.close()
         except Exception:
             # A client that leaves while its page is being built takes everything with it.
             _LOG.warning("A session could not begin.", exc_info=True)
 
-    def _arrive(self) -> tuple[str, Left | None]:
-        """A token for this session, and what the client's last session left."""
+    def _arrive(self) -> tuple[str, Place | None]:
+        """A token for this session, and the place to begin at: a link's, or where it was left."""
         storage = self._client.local_storage
-        token = str(uuid4())
+        token, place = str(uuid4()), None
         try:
-            left = self._shared.reloads.take(storage.get_item(_TOKEN, timeout=2.0))
+            if link := take_link(self._client, timeout=2.0):
+                place = from_token(link)
+            else:
+                place = self._shared.reloads.take(storage.get_item(_TOKEN, timeout=2.0))
         except (RuntimeError, TimeoutError):
-            left = None  # a browser that stores nothing begins anew
+            pass  # a browser that stores nothing begins anew
+        except InputError as error:
+            self._say(str(error))
         storage.set_item(_TOKEN, token)
-        return token, left
+        return token, place
 
     def _serve(self, workbench: Workbench) -> None:
         while (wishes := self._mailbox.take(workbench.wait())) is not None:

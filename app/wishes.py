@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
 from app.errors import InputError, UserError
+from app.places import Place
 from estimator import ParameterError
 
 if TYPE_CHECKING:
@@ -49,6 +50,20 @@ class OpenAny(LatestWins):
         if problems:
             more = f" So it is with {len(problems) - 1} more." if len(problems) > 1 else ""
             raise InputError(problems[0] + more)
+
+
+@dataclass(frozen=True)
+class Arrive(LatestWins):
+    """Show a place in the recording that has been opened for it."""
+
+    place: Place
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Go there; in a recording that was opened instead of it there is no such place."""
+        if workbench.opened is not None and workbench.opened.entry.label == self.place.label:
+            workbench.seek(self.place.frame)
+            if self.place.camera:
+                workbench.stand(self.place.camera)
 
 
 @dataclass(frozen=True)

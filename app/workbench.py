@@ -18,8 +18,8 @@ from app.opening import telling_frame
 from app.page import Page
 from app.panel import Desk, Shown
 from app.parameter_history import ParameterHistory
+from app.places import Camera, Place
 from app.playback_clock import Playback, PlaybackClock
-from app.reloads import Left
 from app.scene.legend import Legend
 from app.scene.photograph import photograph
 from app.scene.scene import Scene
@@ -44,6 +44,7 @@ class Workbench:
         entries: the recordings that may be opened, at least one.
         parameters: to begin with.
         defaults: to go back to.
+        settings: of the drawing, to begin with.
         mailbox: takes the wishes of the page's controls, from any thread.
     """
 
@@ -56,6 +57,7 @@ class Workbench:
         entries: Sequence[Entry],
         parameters: Parameters,
         defaults: Parameters,
+        settings: ViewSettings,
         mailbox: Mailbox,
     ) -> None:
         self.client = client
@@ -65,7 +67,7 @@ class Workbench:
         self._entries = {entry.label: entry for entry in entries}
         self.parameters = parameters
         self.defaults = defaults
-        self.settings = ViewSettings()
+        self.settings = settings
         self.opened: Opened | None = None
         self._clock = PlaybackClock([0.0])
         self.frame = 0
@@ -75,6 +77,7 @@ class Workbench:
         self._scene = Scene(client, self.settings)
         self._pair: Pair | None = None
         self._other: Pair | None = None
+        self._camera: Camera | None = None
         self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
         self._selection = Selection()
         self._picked: int | None = None
@@ -228,15 +231,23 @@ class Workbench:
         """Draw in sizes that suit where the camera is now."""
         self._scene.focus()
 
-    def close(self) -> Left | None:
-        """Give back the recording; what was shown is returned, for when the client comes again."""
+    def place(self) -> Place | None:
+        """What is shown, None where nothing is."""
         if self.opened is None:
             return None
-        self.page.close()
-        left = Left(self.opened.entry.label, self.frame, self.parameters)
-        self._library.release(self.opened.entry)
-        self.opened = None
-        return left
+        label, camera = self.opened.entry.label, self._scene.camera()
+        return Place(label, self.frame, self.parameters, camera, self.settings)
+
+    def stand(self, camera: Camera) -> None:
+        """Let the next recording that is drawn be seen from there, instead of its first view."""
+        self._camera = camera
+
+    def close(self) -> None:
+        """Give back the recording."""
+        if self.opened is not None:
+            self.page.close()
+            self._library.release(self.opened.entry)
+            self.opened = None
 
     @property
     def _history(self) -> ParameterHistory:
@@ -276,10 +287,17 @@ class Workbench:
             self._scene.show(*found.drawn)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
-                self._scene.place_camera(found.pair, aspect=self._aspect)
+                self._place_camera(found.pair)
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem
+
+    def _place_camera(self, pair: Pair) -> None:
+        if self._camera:
+            self._scene.stand(self._camera)
+        else:
+            self._scene.place_camera(pair, aspect=self._aspect)
+        self._camera = None
 
     def _mark(self) -> None:
         if self._pair is not None:

@@ -27,7 +27,7 @@ class ViewPanel(Panel):
 
     def __init__(self, desk: Desk) -> None:
         self._gui, self._settings, self._post = desk.client.gui, desk.settings, desk.post
-        self._dark = desk.settings.dark
+        self._dark = False  # a page begins light
         with self._gui.add_folder("View"):
             self._add_views(desk.client.camera)
             with self._gui.add_folder("Colours, sizes, layers", expand_by_default=False):

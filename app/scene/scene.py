@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.estimates import Pair
+from app.places import Camera
 from app.scene.canvas import Canvas
 from app.scene.clouds_view import (
     FLOW_NODE,
@@ -75,6 +76,7 @@ class Scene:
             canvas.scene.add_frame(root, show_axes=False)
         self._clouds = CloudsView(canvas.scene, settings.palette)
         self._lens: Lens | None = None
+        self._show_layers()
 
     def open(self, recording: Recording) -> None:
         """Prepare the scene for a recording; a robot that looks the same is kept."""
@@ -139,6 +141,18 @@ class Scene:
         finally:
             if self._lens:
                 self._fit(self._lens)
+
+    def camera(self) -> Camera:
+        """Where the camera stands."""
+        camera = self._canvas.camera
+        (x, y, z), (a, b, c) = np.asarray(camera.position), np.asarray(camera.look_at)
+        return Camera((float(x), float(y), float(z)), (float(a), float(b), float(c)), camera.fov)
+
+    def stand(self, place: Camera) -> None:
+        """Put the camera there."""
+        camera = self._canvas.camera
+        camera.fov, camera.position, camera.look_at = place.fov, place.position, place.look_at
+        self.focus()
 
     def focus(self) -> None:
         """Draw in sizes that suit where the camera has moved to, once it was placed."""

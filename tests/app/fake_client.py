@@ -20,6 +20,9 @@ class FakeStorage:
     def get_item(self, key, timeout=None):
         return self.items.get(key)
 
+    def remove_item(self, key):
+        self.items.pop(key, None)
+
     def set_item(self, key, value):
         self.items[key] = value
 

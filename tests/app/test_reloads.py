@@ -1,7 +1,8 @@
-from app.reloads import Left, Reloads
+from app.places import Place
+from app.reloads import Reloads
 from estimator import Parameters
 
-LEFT = Left("a", 3, Parameters(n=2))
+LEFT = Place("a", 3, Parameters(n=2))
 
 
 def test_what_was_left_is_handed_out_once():

@@ -1,0 +1,47 @@
+"""A link to what is shown."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import viser
+
+from app.page_script import copy_link
+from app.panel import Desk, Panel
+from app.wishes import LatestWins
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
+
+
+@dataclass(frozen=True)
+class CopyLink(LatestWins):
+    """Hand out a link that leads to what is shown."""
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Give it to the browser's clipboard, or to the person where that is closed."""
+        place = workbench.place()
+        if place is not None:
+            copy_link(workbench.client, place.token())
+            workbench.client.add_notification(
+                "Link copied",
+                "It leads to this recording, frame, camera and parameters.",
+                auto_close_seconds=5,
+            )
+
+
+class LinkPanel(Panel):
+    """A button that copies a link."""
+
+    def __init__(self, desk: Desk) -> None:
+        button = desk.client.gui.add_button(
+            "Copy link", icon=viser.Icon.LINK, hint="To recording, frame, camera and parameters."
+        )
+        command = desk.client.gui.add_command("Copy link", icon=viser.Icon.LINK)
+
+        @button.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            desk.post(CopyLink())
+
+        @command.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            desk.post(CopyLink())
