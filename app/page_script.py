@@ -20,6 +20,19 @@ if (!window.tofscopeKeys) {
 }
 """
 
+# Panels may be docked beside the scene; a size that follows from theirs is told by the scene's.
+_EDGE = """
+if (!window.tofscopeEdge) {
+  const canvas = document.querySelector("canvas[data-engine]");
+  const follow = () => document.documentElement.style.setProperty(
+    "--scene-left", `${canvas.getBoundingClientRect().left}px`);
+  if (canvas) {
+    window.tofscopeEdge = new ResizeObserver(follow);
+    window.tofscopeEdge.observe(canvas);
+  }
+}
+"""
+
 _HEIGHT = "canvas-height"
 _CANVAS = "document.querySelector('canvas[data-engine]')"
 
@@ -66,6 +79,11 @@ def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
 def copy_link(client: viser.ClientHandle, token: str) -> None:
     """Put the page's address with this token into the clipboard, or show it."""
     run(client, _COPY_LINK % (_LINK, token))
+
+
+def set_up_scene_edge(client: viser.ClientHandle) -> None:
+    """Tell style sheets where the scene begins, as `--scene-left`."""
+    run(client, _EDGE)
 
 
 def run(client: viser.ClientHandle, script: str) -> None:

@@ -19,7 +19,7 @@ class LegendPanel(Panel):
 
 
 def html(legend: Legend) -> str:
-    """A legend as a box in the lower left corner of the window."""
+    """A legend as a box in the lower left corner of the scene."""
     if not legend.marks and legend.ramp is None:
         return ""
     ground, ink = ("#1c1d20cc", "#e6e7ea") if legend.dark else ("#ffffffd9", "#26282c")
@@ -27,7 +27,8 @@ def html(legend: Legend) -> str:
     if legend.ramp:
         rows += _ramp(legend.ramp)
     return (
-        '<div style="position: fixed; left: 14px; bottom: 14px; z-index: 1; pointer-events: none; '
+        '<div style="position: fixed; left: calc(var(--scene-left, 0px) + 14px); bottom: 14px; '
+        "z-index: 1; pointer-events: none; "
         f"background: {ground}; color: {ink}; padding: 6px 10px; border-radius: 6px; "
         f'font-size: 12px; line-height: 18px" data-legend>{rows}</div>'
     )

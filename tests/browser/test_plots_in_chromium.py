@@ -74,3 +74,16 @@ def test_the_numbers_arrive_as_a_csv_file(tab: Tab):
     assert "angle deviation [deg]" in lines[1]
     last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
     assert len(lines) == last + 3
+
+
+def test_the_legend_of_the_scene_lies_beside_the_plots(tab: Tab):
+    tab.until(lambda: tab.page.locator("[data-legend]").count() == 1)
+    legend = tab.page.locator("[data-legend]")
+    plot = tab.page.locator(".uplot").first.bounding_box()
+    assert plot is not None
+
+    def beside() -> bool:
+        box = legend.bounding_box()
+        return box is not None and box["x"] > plot["x"] + plot["width"]
+
+    tab.until(beside)

@@ -67,11 +67,11 @@ def test_colours_and_dark(tab: Tab):
 def test_the_legend_lies_in_the_lower_left_corner(tab: Tab):
     legend = tab.page.locator("[data-legend]")
     assert "Source: stationary" in legend.inner_text()
-    box, window = legend.bounding_box(), tab.page.viewport_size
+    box, scene = legend.bounding_box(), tab.page.locator("canvas[data-engine]").bounding_box()
     assert box is not None
-    assert window is not None
-    assert box["x"] < 30
-    assert 0 < window["height"] - box["y"] - box["height"] < 30
+    assert scene is not None
+    assert 0 < box["x"] - scene["x"] < 30
+    assert 0 < scene["y"] + scene["height"] - box["y"] - box["height"] < 30
 
 
 def test_the_two_views_of_papers_are_one_file_that_says_what_it_shows(tab: Tab):
