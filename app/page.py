@@ -11,6 +11,7 @@ from app.panels.compare import ComparePanel
 from app.panels.explain import ExplainPanel
 from app.panels.legend import LegendPanel
 from app.panels.link import LinkPanel
+from app.panels.offline_page import OfflinePagePanel
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.plots import PlotsPanel
@@ -47,6 +48,7 @@ class Page:
             ComparePanel(desk),
             ViewPanel(desk),
             ScreenshotPanel(desk),
+            OfflinePagePanel(desk),
             LegendPanel(desk),
             LinkPanel(desk),
             PlotsPanel(desk),

@@ -63,7 +63,7 @@ class Workbench:
         self.client = client
         self._library = library
         self._mailbox = mailbox
-        self._estimates = estimates
+        self.estimates = estimates
         self._entries = {entry.label: entry for entry in entries}
         self.parameters = parameters
         self.defaults = defaults
@@ -124,7 +124,7 @@ class Workbench:
             self._library.release(before.entry)
         recording = opened.recording
         self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
-        self.frame = telling_frame(opened, self.parameters, self._estimates)
+        self.frame = telling_frame(opened, self.parameters, self.estimates)
         self._selection.drop()
         with self.client.atomic():
             self._scene.open(recording)
@@ -161,7 +161,7 @@ class Workbench:
         """
         if self.opened is None:
             return
-        timeline = self._estimates.timeline(self.opened, self.parameters)
+        timeline = self.estimates.timeline(self.opened, self.parameters)
         frame = neighbour(timeline.moving, self.frame, direction)
         if frame is None:
             where = "after" if direction > 0 else "before"
@@ -281,7 +281,7 @@ class Workbench:
         self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
     ) -> None:
         self._pair = self._other = None
-        found = compared(self._estimates, opened, frame, parameters, comparison)
+        found = compared(self.estimates, opened, frame, parameters, comparison)
         self._pair, self._other = found.pair, found.other
         with self.client.atomic():
             self._scene.show(*found.drawn)
@@ -308,6 +308,6 @@ class Workbench:
         """The timeline, looked through again once in a while: estimates come one by one."""
         wanted, now = (opened, self.parameters), time.monotonic()
         if self._outlined is None or self._outlined[0] != wanted or now > self._outlined[1]:
-            timeline = self._estimates.timeline(opened, self.parameters)
+            timeline = self.estimates.timeline(opened, self.parameters)
             self._outlined = (wanted, now + _OUTLOOK, timeline)
         return self._outlined[2]

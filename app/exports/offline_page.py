@@ -78,13 +78,13 @@ def offline_page(
         scene = Scene(server, settings)
         scene.open(recording)
         scene.change(settings)
-        first = estimates.estimated(opened, frames[0], parameters)
+        first = estimates.estimated_ahead(opened, frames[0], parameters)
         scene.show(first)
         scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), view)
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)
-            scene.show(estimates.estimated(opened, k, parameters))
+            scene.show(estimates.estimated_ahead(opened, k, parameters))
             recorder.insert_sleep(pause)
         page = recorder.as_html(dark_mode=settings.dark)
     finally:

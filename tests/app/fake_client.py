@@ -72,6 +72,7 @@ class FakeClient:
 
     def add_notification(self, title, body, **_):
         self.notifications.append(body)
+        return SimpleNamespace(body=body, remove=lambda: None)
 
     def send_file_download(self, name, content, save_immediately=False):
         self.downloads.append((name, content))

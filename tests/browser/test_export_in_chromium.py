@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Page
 
 from recordings import sample_paths
 from tests.browser.conftest import NO_DRAWING
+from tests.browser.tab import Tab
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -116,3 +117,17 @@ def test_a_transparent_picture_from_above(sample: Path, tmp_path: Path):
         assert (picture.mode, picture.size) == ("RGBA", (320, 180))
         opaque = np.asarray(picture)[..., 3] == 255
     assert 0.005 < opaque.mean() < 0.7
+
+
+def test_the_app_makes_an_offline_page_while_the_session_goes_on(tab: Tab):
+    frame = tab.value("Frame")
+    with tab.page.expect_download(timeout=90_000) as download:
+        tab.page.get_by_role("button", name="Save offline page").click()
+        tab.set_slider("Frame", "ArrowLeft", times=2)
+    assert tab.value("Frame") == frame - 2
+    name = download.value.suggested_filename
+    assert name.endswith(".html")
+    tab.until(lambda: tab.has_text(f"{name}, "))
+    page = Path(download.value.path()).read_text()
+    assert f"<title>{name.removesuffix('.html')} (simulated)</title>" in page
+    assert "__VISER_EMBED_DATA__" in page

@@ -1,0 +1,122 @@
+"""The whole recording as one HTML file, made while the session goes on."""
+
+import logging
+import threading
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import viser
+
+from app.errors import InputError, UserError
+from app.estimates import Estimates
+from app.exports.offline_page import ExportEndedError, offline_page
+from app.file_names import safe
+from app.library import Opened
+from app.panel import Desk, Panel
+from app.scene.settings import ViewSettings
+from app.scene.views import THREE_D
+from app.wishes import LatestWins
+from estimator import Parameters
+
+if TYPE_CHECKING:
+    from app.workbench import Workbench
+
+_LOG = logging.getLogger(__name__)
+_TITLE = "Offline page"
+_QUIET = 0.02  # seconds for which nobody has waited for an estimate, before the next frame
+
+
+@dataclass(frozen=True)
+class SaveOfflinePage(LatestWins):
+    """Save the recording as a page."""
+
+    panel: "OfflinePagePanel"
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Begin to make it, where there is a recording; InputError where one is being made."""
+        if workbench.opened is not None:
+            self.panel.begin(
+                workbench.opened, workbench.parameters, workbench.settings, workbench.estimates
+            )
+
+
+class OfflinePagePanel(Panel):
+    """A button that makes an offline page in the background, and sends it when it is ready."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._client = desk.client
+        self._thread: threading.Thread | None = None
+        self._ended = threading.Event()
+        button = desk.client.gui.add_button(
+            "Save offline page",
+            icon=viser.Icon.MOVIE,
+            color="gray",
+            hint="All frames as one HTML file, which plays in any browser without network",
+        )
+
+        @button.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            desk.post(SaveOfflinePage(self))
+
+    def begin(
+        self, opened: Opened, parameters: Parameters, settings: ViewSettings, estimates: Estimates
+    ) -> None:
+        """Make the page of a recording in a thread of its own.
+
+        Raises:
+            InputError: one is being made already.
+        """
+        if self._thread is not None and self._thread.is_alive():
+            raise InputError("An offline page is being made already; wait until it is there.")
+        self._ended.clear()
+        self._thread = threading.Thread(
+            target=self._make,
+            args=(opened, parameters, settings, estimates),
+            name="offline page",
+            daemon=True,
+        )
+        self._thread.start()
+
+    def close(self) -> None:
+        """End what is being made of the recording."""
+        self._ended.set()
+        if self._thread is not None:
+            self._thread.join(timeout=10.0)
+
+    def _make(
+        self, opened: Opened, parameters: Parameters, settings: ViewSettings, estimates: Estimates
+    ) -> None:
+        frames = range(len(opened.recording))
+        said = self._client.add_notification(
+            _TITLE, f"Drawing {len(frames)} frames.", loading=True, with_close_button=False
+        )
+        told = time.monotonic()
+
+        def progress(index: int) -> None:
+            nonlocal told
+            estimates.foreground.wait_until_quiet(_QUIET)
+            if self._ended.is_set():
+                raise ExportEndedError
+            if time.monotonic() > told + 0.3:
+                told = time.monotonic()
+                said.body = f"Frame {index} of {len(frames) - 1}."
+
+        try:
+            page = offline_page(opened, frames, parameters, settings, THREE_D, estimates, progress)
+        except ExportEndedError:
+            return
+        except UserError as error:
+            self._say(str(error), "red")
+        except Exception as error:
+            _LOG.debug("An unexpected error.", exc_info=True)
+            self._say(f"It could not be made ({type(error).__name__}: {error}).", "red")
+        else:
+            name, content = f"{safe(opened.recording.name)}.html", page.encode()
+            self._client.send_file_download(name, content, save_immediately=True)
+            self._say(f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads.", "green")
+        finally:
+            said.remove()
+
+    def _say(self, sentence: str, colour: Literal["red", "green"]) -> None:
+        self._client.add_notification(_TITLE, sentence, color=colour, auto_close_seconds=10)
