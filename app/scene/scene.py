@@ -152,7 +152,8 @@ class Scene:
         """Put the camera there."""
         camera = self._canvas.camera
         camera.fov, camera.position, camera.look_at = place.fov, place.position, place.look_at
-        self.focus()
+        position, look_at = np.array(place.position), np.array(place.look_at)
+        self._focus(Lens.between(position, look_at, place.fov))
 
     def focus(self) -> None:
         """Draw in sizes that suit where the camera has moved to, once it was placed."""

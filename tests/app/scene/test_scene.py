@@ -123,3 +123,11 @@ def test_turning_the_camera_sends_nothing(scene, client):
     client.camera.position = np.array([0.0, 2.0, 0.0])
     scene.focus()
     assert client.take_sent() == []
+
+
+def test_a_restored_camera_has_its_sizes_at_once(client, pair):
+    scene = Scene(client, ViewSettings())
+    scene.open(fake_recording())
+    scene.show(pair)
+    scene.stand(Camera((0.0, 2.0, 0.0), (0.0, 0.0, 0.0), 0.5))
+    assert client.node(SOURCE_NODE).point_size == pytest.approx(5 / 720 * 2 * np.tan(0.25))
