@@ -127,7 +127,7 @@ def _legend(
     said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
     rows = "".join(_row(name, value) for name, value in said.items())
     box = (
-        "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 26rem; "
+        "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 30rem; "
         "padding: 0.5rem 0.75rem; border-radius: 0.4rem; "
         f"background: {paper}; color: {ink}; "
         "font: 0.8rem/1.5 system-ui, sans-serif; box-shadow: 0 0 0.8rem #0002"
