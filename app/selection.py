@@ -7,7 +7,7 @@ from scipy.spatial import KDTree
 from app.estimates import Pair
 from estimator import ClusterResult
 
-_TOLERANCE = 0.02  # rad between the ray of a click and a point that it still means
+_TOLERANCE = 0.012  # rad between the ray of a click and a point that it still means
 _SAME = 0.05  # metres between points of two estimates that are taken for the same
 
 

@@ -14,11 +14,25 @@ _CAMERA = """() => {
 
 def pixel(tab: Tab, point: NDArray[np.float64]) -> tuple[float, float]:
     """Where a point (3,) of the fixed frame is on the page."""
+    return tuple(pixels(tab, point[None])[0])
+
+
+def pixels(tab: Tab, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Where points (N, 3) of the fixed frame are on the page, (N, 2)."""
     projection, view, (left, top, width, height) = tab.page.evaluate(_CAMERA)
     matrices = [np.reshape(values, (4, 4)).T for values in (projection, view)]
     fixed = tab.poses(["source"])[0]
-    x, y, _, w = matrices[0] @ matrices[1] @ fixed @ np.append(point, 1.0)
-    return left + (1 + x / w) / 2 * width, top + (1 - y / w) / 2 * height
+    ones = np.ones((len(points), 1))
+    x, y, _, w = matrices[0] @ matrices[1] @ fixed @ np.hstack([points, ones]).T
+    return np.stack([left + (1 + x / w) / 2 * width, top + (1 - y / w) / 2 * height], axis=1)
+
+
+def background(tab: Tab) -> tuple[float, float]:
+    """A pixel of the scene as far from every point as there is one."""
+    points = np.vstack([tab.points("source"), tab.points("target")])
+    taken = pixels(tab, points)
+    free = [(x, y) for x in range(80, 500, 10) for y in range(220, 520, 10)]
+    return max(free, key=lambda place: np.linalg.norm(taken - place, axis=1).min())
 
 
 def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
@@ -28,7 +42,7 @@ def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
     tab.until(lambda: tab.has_text("Moving: fitness"))
     picked = {tuple(point) for point in tab.points("picked/points")}
     assert {tuple(point) for point in moving} <= picked
-    tab.page.mouse.click(5, 5)
+    tab.page.mouse.click(*background(tab))
     tab.until(lambda: not tab.has_text("Moving: fitness"))
 
 
