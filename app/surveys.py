@@ -14,7 +14,7 @@ from app.survey import Survey
 from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
-_QUIET = 0.15  # seconds without anybody waiting for an estimate before the background goes on
+_QUIET = 0.6  # seconds without anybody waiting for an estimate; who tunes is never held up
 _TELL = 0.3  # seconds between two times that a listener is told of something new
 
 
