@@ -10,11 +10,11 @@ import viser
 from numpy.typing import NDArray
 
 from app.comparison import A, B, Comparison, compared
-from app.errors import InputError
 from app.estimates import Estimates, Pair
 from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox
 from app.opening import telling_frame
+from app.outlook import Outlook
 from app.page import Page
 from app.panel import Desk, Shown
 from app.parameter_history import ParameterHistory
@@ -26,11 +26,9 @@ from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from app.selection import Selection, cluster_at, cluster_of
 from app.surveys import Surveys
-from app.timeline import Timeline, neighbour
+from app.timeline import Timeline
 from app.wishes import OpenRecording, Seek
 from estimator import Parameters
-
-_OUTLOOK = 1.0  # seconds after which the timeline is looked through again
 
 
 class Workbench:
@@ -78,7 +76,7 @@ class Workbench:
         self._pair: Pair | None = None
         self._other: Pair | None = None
         self._camera: Camera | None = None
-        self._outlined: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
+        self._outlook = Outlook(estimates)
         self._selection = Selection()
         self._picked: int | None = None
         self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post, surveys))
@@ -153,21 +151,9 @@ class Workbench:
         """Play otherwise, {field of `Playback`: value}."""
         self._clock.change(values, self.frame, time.monotonic())
 
-    def jump_to_motion(self, direction: int) -> None:
-        """Go to where the next (1) or the previous (-1) stretch with motion begins.
-
-        Raises:
-            InputError: there is none.
-        """
-        if self.opened is None:
-            return
-        timeline = self.estimates.timeline(self.opened, self.parameters)
-        frame = neighbour(timeline.moving, self.frame, direction)
-        if frame is None:
-            where = "after" if direction > 0 else "before"
-            known = "" if self.opened.recording.has_truth else " in the frames estimated so far"
-            raise InputError(f"Nothing begins to move {where} this frame{known}.")
-        self.seek(frame)
+    def timeline(self) -> Timeline | None:
+        """The recording at a glance, None where none is open."""
+        return self._outlook.timeline(self.opened, self.parameters) if self.opened else None
 
     def change_parameters(self, values: Mapping[str, Any]) -> None:
         """Change some parameters, {name: value}; ParameterError where one is out of range."""
@@ -273,7 +259,7 @@ class Workbench:
             picked=self._picked,
             playing=self._clock.playing,
             playback=self.playback,
-            timeline=self._timeline(opened),
+            timeline=self._outlook.timeline(opened, self.parameters),
             seeking=self._mailbox.waits(Seek),
         )
 
@@ -303,11 +289,3 @@ class Workbench:
         if self._pair is not None:
             self._picked = self._selection.follow(self._pair)
             self._scene.mark(self._pair, cluster_of(self._pair, self._picked))
-
-    def _timeline(self, opened: Opened) -> Timeline:
-        """The timeline, looked through again once in a while: estimates come one by one."""
-        wanted, now = (opened, self.parameters), time.monotonic()
-        if self._outlined is None or self._outlined[0] != wanted or now > self._outlined[1]:
-            timeline = self.estimates.timeline(opened, self.parameters)
-            self._outlined = (wanted, now + _OUTLOOK, timeline)
-        return self._outlined[2]

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, Self
 import viser
 from viser import Icon
 
+from app.errors import InputError
 from app.mailbox import Wish
 from app.playback_clock import SPEEDS
+from app.timeline import neighbour
 from app.wishes import LatestWins, Seek, Step, TogglePlay
 
 if TYPE_CHECKING:
@@ -42,8 +44,17 @@ class JumpToMotion(LatestWins):
     direction: int
 
     def fulfil(self, workbench: "Workbench") -> None:
-        """Go there, or say that there is no such place."""
-        workbench.jump_to_motion(self.direction)
+        """Go there; InputError says that there is no such place."""
+        timeline = workbench.timeline()
+        if timeline is None or workbench.opened is None:
+            return
+        frame = neighbour(timeline.moving, workbench.frame, self.direction)
+        if frame is None:
+            where = "after" if self.direction > 0 else "before"
+            known = workbench.opened.recording.has_truth
+            far = "" if known else " in the frames estimated so far"
+            raise InputError(f"Nothing begins to move {where} this frame{far}.")
+        workbench.seek(frame)
 
 
 @dataclass(frozen=True)
