@@ -79,11 +79,10 @@ def test_the_numbers_arrive_as_a_csv_file(tab: Tab):
 def test_the_legend_of_the_scene_lies_beside_the_plots(tab: Tab):
     tab.until(lambda: tab.page.locator("[data-legend]").count() == 1)
     legend = tab.page.locator("[data-legend]")
-    plot = tab.page.locator(".uplot").first.bounding_box()
-    assert plot is not None
 
     def beside() -> bool:
-        box = legend.bounding_box()
-        return box is not None and box["x"] > plot["x"] + plot["width"]
+        # A plot that is being built anew has no place for a moment.
+        box, plot = legend.bounding_box(), tab.page.locator(".uplot").first.bounding_box()
+        return box is not None and plot is not None and box["x"] > plot["x"] + plot["width"]
 
     tab.until(beside)
