@@ -12,13 +12,7 @@ from app.reloads import Reloads
 from app.session import Session, Shared
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_recording
-
-
-def until(condition, timeout=10.0):
-    end = time.monotonic() + timeout
-    while not condition():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
+from tests.app.waiting import until
 
 
 @pytest.fixture

@@ -22,14 +22,7 @@ from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_client import FakeClient
 from tests.app.fake_recordings import FRAMES, fake_recording
-
-
-def until(condition, timeout=10.0):
-    """Wait until something holds; sessions draw in threads of their own."""
-    end = time.monotonic() + timeout
-    while not condition():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
+from tests.app.waiting import until
 
 
 class Runs:
@@ -517,12 +510,12 @@ def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
     until(lambda: arrow_count(client) == 0)
     client.trigger("Compare: switch between A and B")
     until(lambda: arrow_count(client) == 100)
-    assert client.control("δ").value == 0.04
+    until(lambda: client.control("δ").value == 0.04)
     client.change("γ", 0.6)
     until(lambda: runs.parameters[-1] == Parameters(gamma=0.6))
     client.press("Switch to B")
     until(lambda: client.control("δ").value == 0.3)
-    assert client.control("γ").value == 0.7
+    until(lambda: client.control("γ").value == 0.7)
     until(lambda: arrow_count(client) == 0)
     client.press("Draw both")
     # A's arrows are the first flow, whichever is edited.
@@ -534,8 +527,8 @@ def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
     until(lambda: not client.node(f"{FIXED}/second_flow").visible)
     client.press("Remove B")
     until(lambda: len(points(client, "second_flow")) == 0)
-    assert client.control("γ").value == 0.6
-    assert client.control("δ").value == 0.04
+    until(lambda: client.control("γ").value == 0.6)
+    until(lambda: client.control("δ").value == 0.04)
 
 
 def test_a_and_b_are_undone_apart(session, client):

@@ -9,13 +9,7 @@ from app.surveys import Surveys
 from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
-
-
-def until(condition, timeout=20.0):
-    end = time.monotonic() + timeout
-    while not condition():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
+from tests.app.waiting import until
 
 
 class Listener:

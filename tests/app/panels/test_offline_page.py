@@ -1,5 +1,4 @@
 import threading
-import time
 
 import pytest
 
@@ -11,17 +10,11 @@ from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_recordings import fake_opened, fake_recording
 from tests.app.fake_session import desk
+from tests.app.waiting import until
 
 
 def begin(panel: OfflinePagePanel, opened) -> None:
     panel.begin(opened, Parameters(), ViewSettings(), Estimates())
-
-
-def until(condition) -> None:
-    end = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.02)
 
 
 def test_the_page_arrives_when_it_is_ready(client):
