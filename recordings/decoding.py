@@ -2,7 +2,7 @@
 
 import struct
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,10 @@ class Decoder:
                 f"{self._file.path} is broken at message {index} of {channel.topic}: "
                 f"it does not fit the type {channel.schema_name}."
             ) from error
+
+    def messages(self, channel: ChannelInfo) -> Iterator[Any]:
+        """All messages of a channel, decoded one after the other; errors as in `decode`."""
+        return (self.decode(channel, i) for i in range(len(self._file.tables[channel.id])))
 
     def header_stamps(self, channel: ChannelInfo) -> NDArray[np.int64]:
         """Header stamps (N,) in nanoseconds of all messages of a channel whose type has a header.

@@ -6,7 +6,6 @@ from recordings.contents import Topic, Use, named_truth
 from recordings.decoding import Decoder, stamp_of
 from recordings.errors import few
 from recordings.frame_table import FrameTable
-from recordings.mcap_file import McapFile
 from recordings.point_truth import PointTruths
 from recordings.tracks import Stamps, pose_track, vector_track
 from recordings.transforms import TransformTree
@@ -15,7 +14,6 @@ from recordings.truth import ObjectTruth, RigidTruth, TwistTruth
 
 def object_truth(
     topics: list[Topic],
-    file: McapFile,
     decoder: Decoder,
     stamps: Stamps,
     tree: TransformTree,
@@ -26,8 +24,7 @@ def object_truth(
 
     Args:
         topics: of the file.
-        file: the file.
-        decoder: of the same file.
+        decoder: of the file.
         stamps: (K,) nanoseconds of the frames.
         tree: poses of /tf.
         fixed_frame: in which the truth is wanted.
@@ -46,13 +43,12 @@ def object_truth(
                 f"The truth frame {truth_frame} has no pose in {fixed_frame}, so there is no "
                 f"truth; /tf has {listed}."
             ]
-        poses = [tree.transform(fixed_frame, truth_frame, k) for k in range(len(stamps))]
-        return RigidTruth(np.stack(poses), stamps), []
+        return RigidTruth(tree.over(fixed_frame, truth_frame, len(stamps)), stamps), []
     warnings: list[str] = []
     for use, read in ((Use.VELOCITY, _by_twist), (Use.POSE, _by_pose)):
         for topic in topics:
             if topic.use is use:
-                truth, said = read(topic, file, decoder, stamps, tree, fixed_frame)
+                truth, said = read(topic, decoder, stamps, tree, fixed_frame)
                 warnings += said
                 if truth is not None:
                     if not named_truth(topic.name):
@@ -89,7 +85,6 @@ def point_truths(
 
 def _by_twist(
     topic: Topic,
-    file: McapFile,
     decoder: Decoder,
     stamps: Stamps,
     tree: TransformTree,
@@ -97,8 +92,7 @@ def _by_twist(
 ) -> tuple[ObjectTruth | None, list[str]]:
     times: list[int] = []
     values: list[tuple[float, float, float]] = []
-    for index in range(len(file.tables[topic.channel.id])):
-        message = decoder.decode(topic.channel, index)
+    for message in decoder.messages(topic.channel):
         linear = message.twist.linear
         times.append(stamp_of(message))
         values.append((linear.x, linear.y, linear.z))
@@ -116,7 +110,7 @@ def _by_twist(
                 f"{fixed_frame}; it is not used as the truth."
             ]
         else:
-            turns = [tree.transform(fixed_frame, topic.frame, k) for k in range(len(stamps))]
+            turns = tree.over(fixed_frame, topic.frame, len(stamps))
             turn = next((T for T in turns if np.isfinite(T).all()), None)
             if turn is None:
                 return None, [f"The pose of {topic.frame} is not known at any frame."]
@@ -129,7 +123,6 @@ def _by_twist(
 
 def _by_pose(
     topic: Topic,
-    file: McapFile,
     decoder: Decoder,
     stamps: Stamps,
     tree: TransformTree,
@@ -138,8 +131,7 @@ def _by_pose(
     times: list[int] = []
     places: list[tuple[float, ...]] = []
     turns: list[tuple[float, ...]] = []
-    for index in range(len(file.tables[topic.channel.id])):
-        message = decoder.decode(topic.channel, index)
+    for message in decoder.messages(topic.channel):
         p, q = message.pose.position, message.pose.orientation
         times.append(stamp_of(message))
         places.append((p.x, p.y, p.z))
@@ -154,6 +146,5 @@ def _by_pose(
                 f"The pose on {topic.name} is given in {topic.frame}, which nothing places in "
                 f"{fixed_frame}; it is not used as the truth."
             ]
-        to_fixed = [tree.transform(fixed_frame, topic.frame, k) for k in range(len(stamps))]
-        poses = np.stack(to_fixed) @ poses
+        poses = tree.over(fixed_frame, topic.frame, len(stamps)) @ poses
     return RigidTruth(poses, stamps), []

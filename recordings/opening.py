@@ -88,7 +88,7 @@ def _open(
         decoder.read_stamps(t.channel for t in topics if t.use in (Use.DEPTH, Use.STATUS))
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
-    tree, warnings = read_transforms(topics, file, decoder, table.stamps)
+    tree, warnings = read_transforms(topics, decoder, table.stamps)
     warnings += _about_file(file, table, len(found))
 
     names = joint_names(topics, file, decoder)
@@ -120,7 +120,7 @@ def _open(
     poses = SensorPoses(frames, tree, fixed, rig_sensors, robot_poses, len(table.stamps))
     warnings += _unplaced_sensors(file, found, tree, fixed, rig_sensors, robot, rig)
 
-    truth, said = object_truth(topics, file, decoder, table.stamps, tree, fixed, truth_frame)
+    truth, said = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
     warnings += said
     points, said = point_truths(topics, decoder, table, tree, fixed)
     warnings += said

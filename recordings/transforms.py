@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder, stamp_of
-from recordings.mcap_file import McapFile
 from recordings.tracks import PoseTrack, Stamps, pose_track
 
 Transform = NDArray[np.float64]
@@ -71,7 +70,7 @@ class TransformTree:
         changing = [frame for frame in [*up, *down] if len(self._poses[frame]) > 1]
         if not changing:
             return False
-        poses = np.stack([self.transform(a, b, k) for k in range(len(self._poses[changing[0]]))])
+        poses = self.over(a, b, len(self._poses[changing[0]]))
         known = poses[np.isfinite(poses).all(axis=(1, 2))]
         return len(known) == 0 or bool(np.ptp(known, axis=0).max() > _STILL)
 
@@ -83,9 +82,9 @@ class TransformTree:
         T_common_a, T_common_b = self._chain(up, k), self._chain(down, k)
         return inverse(T_common_a) @ T_common_b
 
-    def joined(self, other: "TransformTree") -> "TransformTree":
-        """This tree with the branches of another; where both know a frame's parent, this wins."""
-        return TransformTree(other._parents | self._parents, other._poses | self._poses)
+    def over(self, a: str, b: str, frames: int) -> Transform:
+        """T_a_b (K, 4, 4) at the first `frames` frames, NaN where unknown."""
+        return np.stack([self.transform(a, b, k) for k in range(frames)])
 
     def _branches(self, a: str, b: str) -> tuple[list[str], list[str]]:
         """The frames from `a`, and from `b`, up to below the first that both descend from."""
@@ -110,14 +109,13 @@ def inverse(T: Transform) -> Transform:
 
 
 def read_transforms(
-    topics: Iterable[Topic], file: McapFile, decoder: Decoder, stamps: Stamps
+    topics: Iterable[Topic], decoder: Decoder, stamps: Stamps
 ) -> tuple[TransformTree, list[str]]:
     """Read /tf and /tf_static into a tree at the given frames.
 
     Args:
         topics: of the file; those used as poses are read.
-        file: the file.
-        decoder: of the same file.
+        decoder: of the file.
         stamps: (K,) nanoseconds of the recording's frames.
 
     Returns:
@@ -131,8 +129,8 @@ def read_transforms(
         if topic.use not in (Use.TRANSFORMS, Use.STATIC_TRANSFORMS):
             continue
         into = fixed if topic.use is Use.STATIC_TRANSFORMS else moving
-        for index in range(len(file.tables[topic.channel.id])):
-            for transform in decoder.decode(topic.channel, index).transforms:
+        for message in decoder.messages(topic.channel):
+            for transform in message.transforms:
                 child = transform.child_frame_id.lstrip("/")
                 parent = transform.header.frame_id.lstrip("/")
                 if parents.setdefault(child, parent) != parent:

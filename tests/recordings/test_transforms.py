@@ -67,9 +67,7 @@ def test_tf_is_read_at_the_frames_and_a_second_parent_is_said(tmp_path: Path):
     file.add("/tf_static", "tf2_msgs/msg/TFMessage", fixed, 0)
     mcap = McapFile(file.write(tmp_path / "tf.mcap"))
     decoder = Decoder(mcap)
-    tree, warnings = read_transforms(
-        topics_of(mcap, decoder), mcap, decoder, np.array([0, 150, 250])
-    )
+    tree, warnings = read_transforms(topics_of(mcap, decoder), decoder, np.array([0, 150, 250]))
     mcap.close()
     np.testing.assert_allclose(tree.transform("world", "eye", 1)[:3, 3], [1.5, 0, 0.1], atol=1e-9)
     assert np.isnan(tree.transform("world", "eye", 2)).all()
