@@ -9,7 +9,8 @@ import numpy as np
 
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError
-from recordings.mcap_file import ChannelInfo, McapFile
+from recordings.mcap_contents import ChannelInfo
+from recordings.mcap_file import McapFile
 
 ZONES = (8, 8)
 DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 
 from recordings.errors import RecordingError
-from recordings.mcap_file import ChannelInfo, McapFile
+from recordings.mcap_contents import ChannelInfo
+from recordings.mcap_file import McapFile
 from recordings.stamp_index import STAMP_INDEX, unpack
 
 
