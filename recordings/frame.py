@@ -60,6 +60,7 @@ class Provenance:
         seed: of the random numbers.
         noise: name and one-line description of the noise model.
         command: the command that makes the recording again.
+        imperfections: names of what is wrong with the recording besides noise.
     """
 
     simulated: bool
@@ -69,3 +70,4 @@ class Provenance:
     seed: int
     noise: str
     command: str
+    imperfections: tuple[str, ...] = ()

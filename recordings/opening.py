@@ -171,6 +171,7 @@ def provenance_of(file: McapFile) -> Provenance | None:
             seed=int(record["seed"]),
             noise=record["noise"],
             command=record["command"],
+            imperfections=tuple(record.get("imperfections", "").split()),
         )
     except (KeyError, ValueError) as error:
         names = ", ".join(f.name for f in fields(Provenance))

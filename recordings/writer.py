@@ -148,5 +148,7 @@ def _frame_id(topic_part: str) -> str:
 
 
 def _as_text(provenance: Provenance) -> dict[str, str]:
-    values = asdict(provenance)
+    values = asdict(provenance) | {"imperfections": " ".join(provenance.imperfections)}
+    if not provenance.imperfections:
+        del values["imperfections"]
     return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}

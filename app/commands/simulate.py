@@ -8,7 +8,14 @@ from typing import Any
 
 from app.errors import InputError
 from recordings import RecordingError, open_recording
-from recordings.simulation import NOISE_MODELS, SCENARIOS, SPEEDS, TRIALS, write_simulation
+from recordings.simulation import (
+    IMPERFECTIONS,
+    NOISE_MODELS,
+    SCENARIOS,
+    SPEEDS,
+    TRIALS,
+    write_simulation,
+)
 from robot_assets import load_rig, load_robot
 
 _ENDING = ".mcap"
@@ -20,6 +27,7 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
     """Add the subcommand."""
     scenarios = "; ".join(f"{s.name}: {s.text}" for s in SCENARIOS.values())
     noise = "; ".join(f"{n.name}: {n.text}" for n in NOISE_MODELS.values())
+    imperfections = "; ".join(f"{i.name}: {i.text}" for i in IMPERFECTIONS.values())
     parser = commands.add_parser(
         "simulate",
         help="make simulated recordings",
@@ -77,6 +85,14 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         default="paper",
         help=f"model of the sensors' errors (default paper); {noise}".replace("%", "%%"),
     )
+    parser.add_argument(
+        "--imperfections",
+        nargs="+",
+        choices=list(IMPERFECTIONS),
+        default=[],
+        metavar="NAME",
+        help=f"what else is wrong (default nothing); {imperfections}".replace("%", "%%"),
+    )
     parser.set_defaults(run=run)
 
 
@@ -114,6 +130,7 @@ def run(options: argparse.Namespace) -> int:
             trial=trial,
             seed=options.seed,
             noise=NOISE_MODELS[options.noise],
+            imperfections=tuple(options.imperfections),
             robot=robot,
             rig=rig,
         )

@@ -1,14 +1,18 @@
 """Simulated recordings of the paper's three scenarios."""
 
+from recordings.simulation.imperfections import IMPERFECTIONS, Imperfection
 from recordings.simulation.noise import NOISE_MODELS, NoiseModel
-from recordings.simulation.scenario import SCENARIOS, SPEEDS, TRIALS, Scenario
+from recordings.simulation.scenario import PAPER_SCENARIOS, SCENARIOS, SPEEDS, TRIALS, Scenario
 from recordings.simulation.simulate import simulate, write_simulation
 
 __all__ = [
+    "IMPERFECTIONS",
     "NOISE_MODELS",
+    "PAPER_SCENARIOS",
     "SCENARIOS",
     "SPEEDS",
     "TRIALS",
+    "Imperfection",
     "NoiseModel",
     "Scenario",
     "simulate",

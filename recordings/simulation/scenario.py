@@ -29,6 +29,7 @@ class Scenario:
         robot: the straight pieces of the sensorised end-effector's path, empty where it rests.
         robot_speed: m/s of the sensorised end-effector.
         posture: the seven joints of the sensorised arm at the start, rad.
+        speeds: m/s at which it is made where no speed is asked for.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Scenario:
     robot: _Path = ()
     robot_speed: float = 0.25
     posture: tuple[float, ...] = _UPRIGHT
+    speeds: tuple[float, ...] = SPEEDS
 
     def mannequin_glide(self, speed: float) -> Glide:
         """The mannequin's motion at `speed` m/s."""
@@ -80,3 +82,6 @@ SCENARIOS = {
     )
 }
 """{name: scenario}."""
+
+PAPER_SCENARIOS = ("towards", "sideways", "robot_moving")
+"""Names of the scenarios of the paper."""

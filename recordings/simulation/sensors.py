@@ -103,10 +103,14 @@ def sensed(
     model: SensorModel,
     noise: NoiseModel,
     rng: np.random.Generator,
+    error: NDArray[np.float64] | float = 0.0,
 ) -> NDArray[np.float64]:
-    """Add noise; NaN where nothing is met or the reading is outside the sensor's range."""
+    """Add noise and a further error; NaN where nothing is met or it is out of the sensor's range.
+
+    Readings and error are in metres.
+    """
     met = np.isfinite(readings)
-    noisy = noise.sample(np.where(met, readings, 0.0), rng)
+    noisy = noise.sample(np.where(met, readings, 0.0), rng) + error
     valid = met & (noisy >= model.min_range) & (noisy <= model.max_range)
     return np.where(valid, noisy, np.nan)
 

@@ -1,12 +1,13 @@
 """The simulator: a scenario of the paper as the sensors of a rig see it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from recordings.frame import Frame, PointTruth, Provenance
+from recordings.simulation.imperfections import Bias, Streams, in_order
 from recordings.simulation.noise import NoiseModel
 from recordings.simulation.scenario import Scenario
 from recordings.simulation.scene import SURROUNDINGS, Body, Scene
@@ -27,6 +28,7 @@ def simulate(
     trial: int,
     seed: int,
     noise: NoiseModel,
+    imperfections: Sequence[str] = (),
     robot: Robot,
     rig: Rig,
 ) -> Iterator[Frame]:
@@ -41,13 +43,17 @@ def simulate(
         trial: number of the trial, from 1.
         seed: of the random numbers, 0 or more.
         noise: how readings err.
+        imperfections: names of what else is wrong.
         robot: a Panda that wears the sensors.
         rig: its sensors.
 
     Raises:
-        ValueError: the speed is not above 0.
+        ValueError: the speed is not above 0, or there is no such imperfection.
     """
-    rng = np.random.default_rng([seed, trial, round(speed * 1e6), *scenario.name.encode()])
+    key = [seed, trial, round(speed * 1e6), *scenario.name.encode()]
+    rng, streams = np.random.default_rng(key), Streams(key)
+    on = in_order(imperfections)
+    bias = Bias(len(rig.sensors), streams.of("bias")) if "bias" in on else None
     scene = Scene(scenario, speed, robot, rng.uniform(-_OFFSET, _OFFSET, 3))
     rays = ZoneRays(rig)
     static = PieceCaster(dict(enumerate(scene.static)))
@@ -59,7 +65,8 @@ def simulate(
         moving = PieceCaster({index: body.placed() for index, body in bodies.items()})
         bundle = rays.in_fixed(T_base_sensor)
         readings, piece = rays.readings(moving.cast(*bundle).before(static.cast(*bundle)))
-        ranges = sensed(readings, rig.model, noise, rng)
+        error = bias.error(readings) if bias else 0.0
+        ranges = sensed(readings, rig.model, noise, rng, error)
         in_sensor = readings[..., None] * rig.model.directions
         yield Frame(
             stamp=_FIRST_STAMP + time,
@@ -99,6 +106,7 @@ def write_simulation(
     trial: int,
     seed: int,
     noise: NoiseModel,
+    imperfections: Sequence[str] = (),
     robot: Robot,
     rig: Rig,
 ) -> int:
@@ -109,6 +117,8 @@ def write_simulation(
     Raises:
         RecordingError: the file cannot be written.
     """
+    imperfections = in_order(imperfections)
+    also = f"--imperfections {' '.join(imperfections)} " if imperfections else ""
     provenance = Provenance(
         simulated=True,
         scenario=scenario.name,
@@ -118,13 +128,21 @@ def write_simulation(
         noise=f"{noise.name}: {noise.text}",
         command=(
             f"tofscope simulate {scenario.name} --speed {speed:g} --trial {trial} --seed {seed} "
-            f"--noise {noise.name} --out {path.name}"
+            f"--noise {noise.name} {also}--out {path.name}"
         ),
+        imperfections=imperfections,
     )
     count = 0
     with RecordingWriter(path, robot, rig, provenance) as writer:
         for frame in simulate(
-            scenario, speed=speed, trial=trial, seed=seed, noise=noise, robot=robot, rig=rig
+            scenario,
+            speed=speed,
+            trial=trial,
+            seed=seed,
+            noise=noise,
+            imperfections=imperfections,
+            robot=robot,
+            rig=rig,
         ):
             writer.write(frame)
             count += 1

@@ -117,6 +117,7 @@ def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Pat
             trial=3,
             seed=5,
             noise=NOISE_MODELS["paper"],
+            imperfections=("bias",),
             robot=ROBOT,
             rig=RIG,
         )
@@ -131,8 +132,10 @@ def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Pat
         assert (source.scenario, source.speed, source.trial, source.seed) == ("sideways", 0.9, 3, 5)
         assert source.noise.startswith("paper: Gaussian")
         assert source.command == (
-            "tofscope simulate sideways --speed 0.9 --trial 3 --seed 5 --noise paper --out x.mcap"
+            "tofscope simulate sideways --speed 0.9 --trial 3 --seed 5 --noise paper "
+            "--imperfections bias --out x.mcap"
         )
+        assert source.imperfections == ("bias",)
 
 
 def test_the_reader_removes_the_robots_own_body(tmp_path: Path):
