@@ -1,8 +1,11 @@
 """A method run over a whole recording, against its truth."""
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from estimator import (
     MOVING_SPEED,
@@ -22,34 +25,65 @@ COLUMNS = {
     "coverage": ("coverage", ".3f"),
     "precision": ("precision", ".3f"),
     "epe3d": ("EPE3D m", ".4f"),
+    "acc_s": ("AccS", ".3f"),
+    "acc_r": ("AccR", ".3f"),
+    "outliers": ("outliers", ".3f"),
+    "dynamic_iou": ("dynamic IoU", ".3f"),
+    "false_flow": ("false flow", ".4f"),
 }
 """{attribute of Metrics: (what people read, format)}."""
 
 
-def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
-    """Estimate every pair that counts and pool the errors; None where there is no truth."""
+def evaluate(
+    recording: Recording, parameters: Parameters, *, with_resting: bool = True
+) -> Metrics | None:
+    """Estimate every pair whose truth is known and pool the errors; None where there is no truth.
+
+    Args:
+        recording: what is estimated.
+        parameters: of the estimates.
+        with_resting: whether pairs that do not count are estimated, too. Only `false_flow` needs
+            them, and is NaN without; where the object rests for long, the rest is there sooner.
+    """
     if not recording.has_truth:
         return None
     errors = PooledErrors()
-    for source_k, target_k in counting_pairs(recording, parameters.n):
-        truth = recording.pair_truth(source_k, target_k, parameters.max_range)
-        if truth is None:
-            continue
-        interval = float(recording.stamps[target_k] - recording.stamps[source_k])
-        flow = estimate_scene_flow(
-            recording.cloud(source_k, parameters.max_range),
-            recording.cloud(target_k, parameters.max_range),
-            interval,
-            parameters,
-        )
-        errors.include(pair_errors(flow, interval, truth).sums)
-    return errors.metrics()
+    counting = set(counting_pairs(recording, parameters.n))
+    for pair in zip(range(len(recording)), range(parameters.n, len(recording)), strict=False):
+        if pair in counting or with_resting:
+            errors.include(_sums(recording, *pair, parameters, counts=pair in counting))
+    metrics = errors.metrics()
+    return metrics if with_resting else replace(metrics, false_flow=math.nan)
 
 
-def pair_errors(flow: SceneFlow, interval: float, truth: PairTruth) -> PooledErrors:
-    """The errors of one pair, whose stamps are `interval` seconds apart."""
+def _sums(
+    recording: Recording, source_k: int, target_k: int, parameters: Parameters, *, counts: bool
+) -> NDArray[np.float64]:
+    truth = recording.pair_truth(source_k, target_k, parameters.max_range)
+    if truth is None or not (counts or truth.points is not None):
+        return PooledErrors().sums
+    interval = float(recording.stamps[target_k] - recording.stamps[source_k])
+    flow = estimate_scene_flow(
+        recording.cloud(source_k, parameters.max_range),
+        recording.cloud(target_k, parameters.max_range),
+        interval,
+        parameters,
+    )
+    return pair_errors(flow, interval, truth, counts=counts).sums
+
+
+def pair_errors(
+    flow: SceneFlow, interval: float, truth: PairTruth, *, counts: bool = True
+) -> PooledErrors:
+    """The errors of one pair, whose stamps are `interval` seconds apart.
+
+    Of a pair that does not count there is the false flow alone.
+    """
     errors = PooledErrors()
-    errors.add(flow, interval, truth.velocity, truth.points)
+    if counts:
+        errors.add(flow, interval, truth.velocity, truth.points)
+    elif truth.points is not None:
+        errors.add_resting(flow, truth.points)
     return errors
 
 

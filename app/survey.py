@@ -68,12 +68,13 @@ class Survey:
             if pair.truth is not None:
                 velocity = pair.object_velocity
                 self.true_speed[k] = 0.0 if velocity is None else np.linalg.norm(velocity)
-                if self._counts[k]:
-                    self._put_errors(k, pair_errors(pair.flow, pair.interval, pair.truth))
+                counts = bool(self._counts[k])
+                errors = pair_errors(pair.flow, pair.interval, pair.truth, counts=counts)
+                self._put_errors(k, errors)
         self.done[k] = True
 
     def summary(self) -> Metrics:
-        """The errors pooled over the pairs that count, as `evaluate` does it."""
+        """The errors pooled over the pairs, as `evaluate` does it."""
         errors = PooledErrors()
         for sums in self._sums:
             errors.include(sums)

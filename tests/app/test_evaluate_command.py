@@ -41,6 +41,7 @@ def test_errors_are_those_of_an_independent_implementation(
     assert row["pairs"] == 4
     assert row["coverage"] is row["precision"] is row["epe3d"] is row["scenario"] is None
     expected = by_hand(room, gate)
+    assert row["acc_s"] is row["dynamic_iou"] is row["false_flow"] is None
     assert expected["points_with_flow"] > 100
     assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-6)
     assert "room" in capsys.readouterr().out

@@ -1,3 +1,5 @@
+from dataclasses import astuple, replace
+
 import numpy as np
 import pytest
 
@@ -57,6 +59,35 @@ def test_pairs_that_do_not_count_have_no_errors_but_a_flow():
     assert np.isfinite(survey.angle_deg[28:]).all()
     assert np.isfinite(survey.speed[8:]).all()
     assert survey.summary().pairs == FRAMES - 28
+
+
+def test_where_nothing_ever_moves_the_false_flow_is_known_alone():
+    fake = fake_recording()
+    fake.truth = lambda _: np.zeros(3)
+    fake.pair_truth = lambda *_: PairTruth(np.zeros((500, 3)), np.zeros((500, 3)))
+    survey = filled(fake_opened(fake), Parameters())
+    metrics = evaluate(fake, Parameters())
+    assert metrics is not None
+    assert astuple(survey.summary()) == pytest.approx(astuple(metrics), nan_ok=True)
+    assert metrics.pairs == 0
+    assert metrics.false_flow == 100 / 500
+    assert np.isnan([metrics.angle_deg, metrics.epe3d, metrics.dynamic_iou]).all()
+
+
+def test_pairs_that_do_not_count_can_be_left_out():
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 30 else np.array([0.0, 0.15, 0.0])
+    asked = []
+    clouds = fake.cloud
+    fake.cloud = lambda k, far: asked.append(k) or clouds(k, far)
+    metrics = evaluate(fake, Parameters(), with_resting=False)
+    assert sorted(asked) == [*range(30, 32), *range(38, 40)]
+    whole = evaluate(fake, Parameters())
+    assert metrics is not None
+    assert whole is not None
+    assert np.isnan(metrics.false_flow)
+    assert whole.false_flow == 0
+    assert replace(metrics, false_flow=0.0) == whole
 
 
 def test_an_object_at_rest_has_a_true_speed_of_zero():
