@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from app.commands import evaluate, export, info, simulate, view
+from app.commands import evaluate, export, info, simulate, study, view
 from app.errors import UserError
 
 
@@ -24,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         description="See and tune scene flow from miniature time-of-flight sensors.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (view, info, simulate, evaluate, export):
+    for module in (view, info, simulate, evaluate, study, export):
         module.add_parser(commands)
     options = parser.parse_args(arguments)
     try:

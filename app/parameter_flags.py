@@ -1,6 +1,7 @@
 """The estimator's parameters as flags of the command line, one flag per field."""
 
 import argparse
+from collections.abc import Collection
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -8,8 +9,13 @@ from app.parameter_files import load
 from estimator import PARAMETER_INFO, ParameterInfo, Parameters, method_names
 
 
-def add_parameter_flags(parser: argparse.ArgumentParser) -> None:
-    """Add --parameters FILE, and a flag for every field of `Parameters`, named like the field."""
+def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[str] = ()) -> None:
+    """Add --parameters FILE, and a flag for every field of `Parameters`, named like the field.
+
+    Args:
+        parser: of a subcommand.
+        leave_out: fields that the subcommand has a flag of its own for.
+    """
     group = parser.add_argument_group("parameters of the estimator")
     group.add_argument(
         "--parameters",
@@ -18,6 +24,8 @@ def add_parameter_flags(parser: argparse.ArgumentParser) -> None:
         help="parameters as the app saves them (JSON); flags beside it win",
     )
     for field in fields(Parameters):
+        if field.name in leave_out:
+            continue
         flag, info = "--" + field.name.replace("_", "-"), PARAMETER_INFO[field.name]
         text = _help(info, field.default)
         # Only flags that are given are set, so that they can win over a file.

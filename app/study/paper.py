@@ -1,0 +1,64 @@
+"""The paper's numbers, which stand beside ours."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+LABELS = {
+    "towards": "y-axis",
+    "sideways": "x-axis",
+    "robot_moving": "Robot with ToF moving",
+}
+"""{scenario: how the paper's tables call it}."""
+METHOD_LABELS = {"paper": "Algorithm 1"}
+"""{method: how tables call it}; any other is called by its name."""
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A row of the paper's tables: means and standard deviations over its trials.
+
+    Attributes:
+        angle_mean: degrees.
+        angle_std: degrees.
+        velocity_mean: m/s.
+        velocity_std: m/s.
+    """
+
+    angle_mean: float
+    angle_std: float
+    velocity_mean: float
+    velocity_std: float
+
+
+@dataclass(frozen=True)
+class PaperNumbers:
+    """What the paper prints.
+
+    Attributes:
+        source: where it is printed.
+        rows: {(scenario, method, m/s): its row}.
+    """
+
+    source: str
+    rows: dict[tuple[str, str, float], Printed]
+
+
+@cache
+def paper_numbers() -> PaperNumbers:
+    """Read the data file."""
+    content = tomllib.loads(files("app.study").joinpath("paper_numbers.toml").read_text("utf-8"))
+    rows = {
+        (e["scenario"], e["method"], speed): Printed(
+            **{key: e[key][i] for key in Printed.__dataclass_fields__}
+        )
+        for e in content["experiment"]
+        for i, speed in enumerate(e["speed"])
+    }
+    return PaperNumbers(content["source"], rows)
+
+
+def experiment_label(scenario: str, method: str) -> str:
+    """How tables call an experiment."""
+    return f"{LABELS.get(scenario, scenario)} ({METHOD_LABELS.get(method, method)})"

@@ -1,0 +1,211 @@
+"""One unit of a study's work: a recording, evaluated with every set of parameters it is for."""
+
+import math
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from app.errors import UserError
+from app.evaluation import evaluate
+from app.study.software import software_digest
+from estimator import Parameters
+from recordings import Recording, open_recording
+from recordings.simulation import NOISE_MODELS, SCENARIOS, write_simulation
+from robot_assets import load_rig, load_robot
+
+SWEPT_SCENARIO = "towards"
+"""In which n is varied (paper, section III-B)."""
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A recording that the study simulates; names are those of `recordings.simulation`.
+
+    Attributes:
+        scenario: what moves.
+        speed: m/s.
+        trial: from 1.
+        seed: of the random numbers.
+        noise: name of the noise model.
+        imperfections: names, in the registry's order.
+    """
+
+    scenario: str
+    speed: float
+    trial: int
+    seed: int = 0
+    noise: str = "paper"
+    imperfections: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """As in names of files."""
+        return f"{self.scenario}_{self.speed:g}_{self.trial}"
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A recording that is there, and how it is opened (see `app.recording_flags`)."""
+
+    path: Path
+    fixed_frame: str | None = None
+    truth_frame: str | None = None
+    rig: Path | None = None
+    urdf: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """As in names of files."""
+        return self.path.stem
+
+
+Source = Simulated | Recorded
+
+
+@dataclass(frozen=True)
+class Work:
+    """A recording and what it is evaluated with.
+
+    Attributes:
+        source: the recording.
+        parameters: that it is evaluated with.
+        sweep: parameters for the sweep, used where the recording shows the swept scenario.
+    """
+
+    source: Source
+    parameters: tuple[Parameters, ...]
+    sweep: tuple[Parameters, ...] = ()
+
+    def wanted(self, scenario: str | None) -> tuple[Parameters, ...]:
+        """What a recording of a scenario is evaluated with, each once."""
+        sweep = self.sweep if scenario == SWEPT_SCENARIO else ()
+        return tuple(dict.fromkeys(self.parameters + sweep))
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of one set of parameters.
+
+    Attributes:
+        parameters: that were used.
+        metrics: {field of `Metrics`: its value, None where undefined}; None without truth.
+        seconds: that it took.
+    """
+
+    parameters: Parameters
+    metrics: dict[str, float | None] | None
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a unit of work.
+
+    Attributes:
+        source: the recording.
+        scenario: that it shows, None where it does not say.
+        speed: m/s that was asked of the moving object, None where it does not say.
+        trial: its number, None where it does not say.
+        noise: name of the noise model, None where it was not simulated.
+        frames: in the recording.
+        seconds: that making or opening it took.
+        results: one for each set of parameters.
+        warnings: sentences about the recording.
+        failure: why there are no results, in a sentence.
+    """
+
+    source: Source
+    scenario: str | None = None
+    speed: float | None = None
+    trial: int | None = None
+    noise: str | None = None
+    frames: int = 0
+    seconds: float = 0.0
+    results: tuple[Result, ...] = ()
+    warnings: tuple[str, ...] = field(default=())
+    failure: str | None = None
+
+
+def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
+    """Do a unit of work, here and now.
+
+    Args:
+        work: the unit.
+        software: `software_digest` of whoever asks: a cluster may have another version.
+        scratch: folder for the simulated file, the system's own where None.
+    """
+    if software != software_digest():
+        return Outcome(
+            work.source,
+            failure=f"{work.source.name}: the worker has another version of Tofscope or of a "
+            "package that it computes with; give all workers the same.",
+        )
+    try:
+        # Cores are shared out by recordings; threads within would only fight for them.
+        with threadpool_limits(1), _opened(work.source, scratch) as (recording, seconds):
+            return _evaluated(work, recording, seconds)
+    except UserError as error:
+        return Outcome(work.source, failure=str(error))
+    except Exception as error:
+        # One recording does not cost the others theirs.
+        return Outcome(work.source, failure=f"{work.source.name}: {type(error).__name__}: {error}")
+
+
+@contextmanager
+def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, float]]:
+    """The recording, and the seconds that it took to make or open it."""
+    begin = perf_counter()
+    if isinstance(source, Recorded):
+        with open_recording(
+            source.path,
+            source.fixed_frame,
+            source.truth_frame,
+            load_rig(source.rig) if source.rig else None,
+            load_robot(source.urdf) if source.urdf else None,
+        ) as recording:
+            yield recording, perf_counter() - begin
+        return
+    with tempfile.TemporaryDirectory(prefix="tofscope-study-", dir=scratch) as folder:
+        path = Path(folder) / f"{source.name}.mcap"
+        write_simulation(
+            path,
+            SCENARIOS[source.scenario],
+            speed=source.speed,
+            trial=source.trial,
+            seed=source.seed,
+            noise=NOISE_MODELS[source.noise],
+            robot=load_robot(),
+            rig=load_rig(),
+        )
+        with open_recording(path) as recording:
+            yield recording, perf_counter() - begin
+
+
+def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
+    outcome = Outcome(work.source, frames=len(recording), seconds=seconds)
+    if made := recording.provenance:
+        outcome = replace(
+            outcome,
+            scenario=made.scenario,
+            speed=made.speed,
+            trial=made.trial,
+            noise=made.noise.partition(":")[0],
+        )
+    results: list[Result] = []
+    for parameters in work.wanted(outcome.scenario):
+        begin = perf_counter()
+        metrics = evaluate(recording, parameters)
+        values = None if metrics is None else _defined(asdict(metrics))
+        results.append(Result(parameters, values, perf_counter() - begin))
+    # After the evaluation: some warnings come up only when frames are read.
+    return replace(outcome, results=tuple(results), warnings=recording.warnings)
+
+
+def _defined(values: dict[str, Any]) -> dict[str, float | None]:
+    return {key: None if math.isnan(value) else value for key, value in values.items()}
