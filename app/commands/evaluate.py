@@ -89,9 +89,10 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
     if metrics is None:
         return row, [*warnings, f"{path} has no truth, so there is nothing to compare with."]
     if metrics.pairs == 0:
+        known = "" if math.isnan(metrics.false_flow) else " Only the false flow is known."
         warnings.append(
             f"{path} has no pair that counts: the object must move at both frames k-n and k, and "
-            f"n is {parameters.n}."
+            f"n is {parameters.n}.{known}"
         )
     if opening.truth_frame is not None:
         warnings.append(

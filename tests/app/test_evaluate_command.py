@@ -1,5 +1,6 @@
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -45,6 +46,76 @@ def test_errors_are_those_of_an_independent_implementation(
     assert expected["points_with_flow"] > 100
     assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-6)
     assert "room" in capsys.readouterr().out
+
+
+def by_hand_of_every_point(room: Room, **judged: Any) -> dict[str, float]:
+    """The field's metrics of a room from their definitions, point after point."""
+    listed: dict[str, list[float]] = {}
+
+    def note(name: str, value: float) -> None:
+        listed.setdefault(name, []).append(value)
+
+    for k in range(8, len(room.points)):
+        interval = (room.stamps[k] - room.stamps[k - 8]) * 1e-9
+        label, velocity = judge(room.points[k - 8], room.points[k], interval, **judged)
+        for i in range(len(label)):
+            flows = label[i] == 2
+            moves = room.on_board[k - 8][i] and k >= room.rests
+            if not moves:
+                note("false_flow", flows)
+            if k - 8 < room.rests:
+                continue  # the board rests at frame k - 8: the pair does not count
+            way = room.velocity * interval if moves else np.zeros(3)
+            found = velocity[i] * interval if flows else np.zeros(3)
+            error = float(np.sqrt(((found - way) ** 2).sum()))
+            relative = error / (float(np.sqrt((way**2).sum())) + 1e-4)
+            note("epe3d", error)
+            note("acc_s", error < 0.05 or relative < 0.05)
+            note("acc_r", error < 0.1 or relative < 0.1)
+            note("outliers", error > 0.3 or relative > 0.1)
+            if moves:
+                note("coverage", flows)
+            if flows:
+                note("precision", moves)
+            if flows or moves:
+                note("dynamic_iou", flows and moves)
+    return {name: float(np.mean(values)) for name, values in listed.items()}
+
+
+@pytest.mark.parametrize(
+    ("flags", "judged"),
+    [
+        (["--method", "paper"], {}),
+        (["--method", "baseline"], {"gate": False}),
+        (["--n-min", "130", "--delta", "0.01"], {"n_min": 130, "delta": 0.01}),
+    ],
+    ids=["the board alone is flagged", "everything is", "only the walls are"],
+)
+def test_metrics_of_points_are_those_of_an_independent_implementation(
+    tmp_path: Path, flags: list[str], judged: dict[str, Any]
+):
+    room = write_room(tmp_path / "room.mcap", frames=16, rests=4, tells_points=True)
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(room.path), *flags, "--json", str(table)]) == 0
+    row = json.loads(table.read_text())["recordings"][0]
+    expected = by_hand_of_every_point(room, **judged)
+    assert row["pairs"] == 4
+    assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-5)
+
+
+def test_where_nothing_moves_the_false_flow_is_known_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    room = write_room(tmp_path / "room.mcap", frames=10, rests=10, tells_points=True)
+    table = tmp_path / "table.json"
+    flags = ["--method", "baseline", "--json", str(table)]
+    assert main(["evaluate", str(room.path), *flags]) == 0
+    row = json.loads(table.read_text())["recordings"][0]
+    assert row["pairs"] == row["points_with_flow"] == 0
+    assert row["false_flow"] > 0.9
+    assert row["angle_deg"] is row["epe3d"] is row["coverage"] is row["dynamic_iou"] is None
+    assert "no pair that counts" in (said := capsys.readouterr().err)
+    assert "Only the false flow is known." in said
 
 
 def test_a_recording_without_truth_gets_a_row_of_nulls_and_a_warning(

@@ -100,6 +100,33 @@ def pose(stamp: int, frame: str, T: NDArray[np.float64]) -> dict[str, Any]:
     }
 
 
+def point_cloud(
+    stamp: int,
+    frame: str,
+    points: NDArray[np.float64],
+    velocities: NDArray[np.float64],
+    objects: NDArray[Any],
+) -> dict[str, Any]:
+    """Positions and velocities as 8-byte floats, the objects as 1-byte integers behind them."""
+    names = ["x", "y", "z", "vx", "vy", "vz"]
+    rows = np.zeros(len(points), dtype=[*((name, "<f8") for name in names), ("object", "u1")])
+    for i, name in enumerate(names):
+        rows[name] = np.hstack([points, velocities])[:, i]
+    rows["object"] = objects
+    fields = [{"name": n, "offset": 8 * i, "datatype": 8, "count": 1} for i, n in enumerate(names)]
+    return {
+        "header": header(stamp, frame),
+        "height": 1,
+        "width": len(points),
+        "fields": [*fields, {"name": "object", "offset": 48, "datatype": 2, "count": 1}],
+        "is_bigendian": False,
+        "point_step": rows.dtype.itemsize,
+        "row_step": rows.nbytes,
+        "data": rows.tobytes(),
+        "is_dense": True,
+    }
+
+
 def joint_state(stamp: int, positions: dict[str, float]) -> dict[str, Any]:
     return {
         "header": header(stamp, ""),
