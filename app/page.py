@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import viser
 
 from app.library import Opened
+from app.page_fields import set_up_fields
 from app.page_script import set_up_keys, set_up_scene_edge
 from app.panel import Desk, Panel, Shown
 from app.panels.compare import ComparePanel
@@ -34,6 +35,7 @@ class Page:
     def __init__(self, desk: Desk) -> None:
         self._client = desk.client
         set_up_keys(desk.client)
+        set_up_fields(desk.client)
         set_up_scene_edge(desk.client)
         self._panels: list[Panel] = [
             RecordingsPanel(desk),

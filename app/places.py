@@ -7,8 +7,10 @@ import math
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from app.comparison import Comparison
 from app.errors import InputError
 from app.parameter_files import from_text
+from app.playback_clock import Playback
 from app.scene.settings import ViewSettings
 from estimator import Parameters
 
@@ -42,6 +44,8 @@ class Place:
         parameters: that are set.
         camera: where it stands, None where that is not known.
         settings: of the drawing.
+        comparison: with a second set of parameters, None where there is none.
+        playback: how it is played, None for the whole recording at its own speed.
     """
 
     label: str
@@ -49,9 +53,14 @@ class Place:
     parameters: Parameters
     camera: Camera | None = None
     settings: ViewSettings = field(default_factory=ViewSettings)
+    comparison: Comparison | None = None
+    playback: Playback | None = None
 
     def token(self) -> str:
-        """All but the settings, which are everybody's own, in letters that an address can hold."""
+        """What a link leads to, in letters that an address can hold.
+
+        The way in which somebody looks at it, and compares and plays it, is everybody's own.
+        """
         defaults = asdict(Parameters())
         content: dict[str, Any] = {"recording": self.label, "frame": self.frame}
         content["parameters"] = {

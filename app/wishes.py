@@ -61,9 +61,7 @@ class Arrive(LatestWins):
     def fulfil(self, workbench: "Workbench") -> None:
         """Go there; in a recording that was opened instead of it there is no such place."""
         if workbench.opened is not None and workbench.opened.entry.label == self.place.label:
-            workbench.seek(self.place.frame)
-            if self.place.camera:
-                workbench.stand(self.place.camera)
+            workbench.arrive(self.place)
 
 
 @dataclass(frozen=True)
@@ -105,12 +103,16 @@ class ChangeParameters:
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Take them, or say why not."""
+        panel = workbench.page.parameters
+        values = panel.meant(self.values, workbench.parameters)
+        if not values:
+            return
         try:
-            workbench.change_parameters(self.values)
+            workbench.change_parameters(values)
         except ParameterError as error:
-            workbench.page.parameters.refuse(self.values, str(error))
+            panel.refuse(values, str(error))
         else:
-            workbench.page.parameters.accept(workbench.parameters)
+            panel.accept(workbench.parameters)
 
 
 @dataclass(frozen=True)
@@ -172,7 +174,7 @@ class Look(LatestWins):
 
 @dataclass(frozen=True)
 class CameraMoved(LatestWins):
-    """The person has moved the camera, to or from what it looks at."""
+    """The camera has come nearer or gone away, or its picture has got another shape."""
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Draw in sizes that suit it."""

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from app.comparison import A, B, Comparison, compared
 from app.estimates import Estimates, Pair
+from app.framing import Framing
 from app.library import Entry, Library, Opened
 from app.mailbox import Mailbox
 from app.opening import telling_frame
@@ -18,7 +19,7 @@ from app.outlook import Outlook
 from app.page import Page
 from app.panel import Desk, Shown
 from app.parameter_history import ParameterHistory
-from app.places import Camera, Place
+from app.places import Place
 from app.playback_clock import Playback, PlaybackClock
 from app.scene.legend import Legend
 from app.scene.photograph import photograph
@@ -73,9 +74,9 @@ class Workbench:
         self._drawn: tuple[Opened, int, Parameters, Comparison | None] | None = None
         self._histories = {side: ParameterHistory() for side in (A, B)}
         self._scene = Scene(client, self.settings)
+        self._framing = Framing(client, self._scene)
         self._pair: Pair | None = None
         self._other: Pair | None = None
-        self._camera: Camera | None = None
         self._outlook = Outlook(estimates)
         self._selection = Selection()
         self._picked: int | None = None
@@ -200,7 +201,7 @@ class Workbench:
     def look(self, view: str) -> None:
         """Put the camera to the view of this name."""
         if self._pair is not None:
-            self._scene.place_camera(self._pair, view, self._aspect)
+            self._framing.look(self._pair, view)
 
     def photograph(self, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
         """Pixels (height, width, 4) of a view by its name, or of what the page shows for None.
@@ -214,19 +215,33 @@ class Workbench:
         return photograph(self.client, self._scene, self._pair, view, width, height)
 
     def focus(self) -> None:
-        """Draw in sizes that suit where the camera is now."""
+        """Draw in sizes that suit where the camera is now, and in the picture's new shape."""
         self._scene.focus()
+        if self._pair is not None:
+            self._framing.follow(self._pair)
 
     def place(self) -> Place | None:
         """What is shown, None where nothing is."""
         if self.opened is None:
             return None
-        label, camera = self.opened.entry.label, self._scene.camera()
-        return Place(label, self.frame, self.parameters, camera, self.settings)
+        return Place(
+            label=self.opened.entry.label,
+            frame=self.frame,
+            parameters=self.parameters,
+            camera=self._scene.camera(),
+            settings=self.settings,
+            comparison=self.comparison,
+            playback=self.playback,
+        )
 
-    def stand(self, camera: Camera) -> None:
-        """Let the next recording that is drawn be seen from there, instead of its first view."""
-        self._camera = camera
+    def arrive(self, place: Place) -> None:
+        """Show a place in the recording that is open and not drawn yet."""
+        self.seek(place.frame)
+        self.comparison = place.comparison
+        if place.camera:
+            self._framing.stand(place.camera)
+        if place.playback:
+            self.change_playback(asdict(place.playback))
 
     def close(self) -> None:
         """Give back the recording."""
@@ -239,12 +254,6 @@ class Workbench:
     def _history(self) -> ParameterHistory:
         """Of the parameters that are edited."""
         return self._histories[self.comparison.edited if self.comparison else A]
-
-    @property
-    def _aspect(self) -> float:
-        """Width by height of the scene in the browser."""
-        camera = self.client.camera
-        return camera.image_width / max(camera.image_height, 1)
 
     def _shown(self, opened: Opened) -> Shown:
         return Shown(
@@ -273,17 +282,10 @@ class Workbench:
             self._scene.show(*found.drawn)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
-                self._place_camera(found.pair)
+                self._framing.begin(found.pair)
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem
-
-    def _place_camera(self, pair: Pair) -> None:
-        if self._camera:
-            self._scene.stand(self._camera)
-        else:
-            self._scene.place_camera(pair, aspect=self._aspect)
-        self._camera = None
 
     def _mark(self) -> None:
         if self._pair is not None:

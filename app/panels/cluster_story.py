@@ -1,11 +1,11 @@
 """Clusters in words and tables: all of them in short, one of them round by round."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
 
 from app.colours import FLOW, PICKED, css
-from app.panels.tables import framed, signed, table
+from app.panels.tables import Row, framed, signed, table
 from estimator import ClusterResult, IcpRound, Label, Parameters
 
 FILLS: dict[Label, str] = {
@@ -16,19 +16,30 @@ FILLS: dict[Label, str] = {
 """{label: how a bar or a swatch of it is filled}, on light and on dark."""
 
 
-def cluster_table(clusters: Sequence[ClusterResult], picked: int | None) -> str:
-    """All clusters, a row each, the picked one marked."""
+def cluster_table(
+    clusters: Sequence[ClusterResult],
+    picked: int | None,
+    attributes: Callable[[ClusterResult], str],
+) -> str:
+    """All clusters, a row each, the picked one marked.
+
+    Args:
+        clusters: of a pair.
+        picked: index of the picked one, None where none is.
+        attributes: of a cluster's row, which say what a click on it does.
+    """
     head = ("", "Points", "Fitness", "Displ.", "Label")
     rows = [
-        (
-            cluster.index == picked,
-            (
+        Row(
+            cells=(
                 str(cluster.index),
                 f"{len(cluster.source)} / {len(cluster.target)}",
                 _number(cluster.fitness, "{:.2f}"),
                 _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
                 f"{swatch(cluster.label)}{cluster.label.name.lower()}",
             ),
+            marked=cluster.index == picked,
+            attributes=attributes(cluster),
         )
         for cluster in clusters
     ]
@@ -46,7 +57,7 @@ def story(cluster: ClusterResult, parameters: Parameters) -> str:
     # The inliers of the last round leave only where nothing was decided by it.
     removing = len(cluster.rounds) - (cluster.label != Label.UNASSIGNED)
     rows = [
-        (False, _round_cells(number, turn, parameters, removes=number <= removing))
+        Row(_round_cells(number, turn, parameters, removes=number <= removing))
         for number, turn in enumerate(cluster.rounds, start=1)
     ]
     head = ("Round", "Points", "Fitness", "Displ.", "Removed")

@@ -6,7 +6,7 @@ from dataclasses import fields
 from html import escape
 
 from app.estimates import Pair
-from app.panels.tables import signed, table
+from app.panels.tables import Row, signed, table
 from estimator import PARAMETER_INFO, Label, Metrics, Parameters
 
 _NAN = float("nan")
@@ -36,7 +36,7 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
 
 def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
     """What was estimated with A, with B, and B less A; a dash where a number is not known."""
-    rows = [(False, (name, *_cells(name, of_a, of_b))) for name in _ROWS]
+    rows = [Row((name, *_cells(name, of_a, of_b))) for name in _ROWS]
     return table(("", "A", "B", "B − A"), rows)
 
 

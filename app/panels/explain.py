@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 import viser
 
 from app.estimates import Pair
+from app.page_fields import sets
 from app.panel import Desk, Panel, Shown
 from app.panels.cluster_story import cluster_table, legend, story
 from app.panels.histograms import Histogram, upper_limit
 from app.panels.tables import framed
 from app.selection import cluster_of
 from app.wishes import LatestWins
-from estimator import Parameters
+from estimator import ClusterResult, Parameters
 
 if TYPE_CHECKING:
     from app.workbench import Workbench
@@ -56,7 +57,9 @@ class ExplainPanel(Panel):
         self._picked: int | None = None
         with gui.add_folder("Explain", expand_by_default=False):
             self._list = gui.add_dropdown(
-                "Cluster", (_NONE,), hint="Or click on one of its points in the scene."
+                "Cluster",
+                (_NONE,),
+                hint="Or click on its row below, or on one of its points in the scene.",
             )
             self._story = gui.add_html("")
             self._table = gui.add_html("")
@@ -89,17 +92,22 @@ class ExplainPanel(Panel):
     def _explain(self, pair: Pair, picked: int | None, parameters: Parameters) -> None:
         assert pair.flow is not None
         clusters = pair.flow.clusters
-        names = {
-            f"{cluster.index} {cluster.label.name.lower()}": cluster.index for cluster in clusters
-        }
+        names = {_name(cluster): cluster.index for cluster in clusters}
         self._choices({_NONE: None, **names}, picked)
         cluster = cluster_of(pair, picked)
         self._story.content = (
-            framed("Click on a point in the scene, or choose a cluster, for its story.")
+            framed(
+                "Click on a point in the scene, or on a row of the table, for a cluster's story."
+            )
             if cluster is None
             else story(cluster, parameters)
         )
-        self._table.content = cluster_table(clusters, picked)
+        self._table.content = cluster_table(
+            clusters,
+            picked,
+            # A click on the picked one lets it go.
+            lambda cluster: sets(self._list, _NONE if cluster.index == picked else _name(cluster)),
+        )
         self._fitness.content = Histogram(
             title="Fitness",
             values=[(cluster.fitness, cluster.label) for cluster in clusters],
@@ -128,3 +136,7 @@ class ExplainPanel(Panel):
         if options != self._list.options:
             self._list.options = options
         self._list.value = next(name for name, index in indices.items() if index == picked)
+
+
+def _name(cluster: ClusterResult) -> str:
+    return f"{cluster.index} {cluster.label.name.lower()}"

@@ -1,6 +1,6 @@
 """The estimator's parameters: sliders for the paper's four, the method, the others folded."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
 from html import escape
 from typing import TYPE_CHECKING, Any, Self
@@ -87,18 +87,41 @@ class ParametersPanel(Panel):
         self._refused = set(self._controls)
         self.accept(parameters)
 
+    def meant(self, values: Mapping[str, Any], parameters: Parameters) -> dict[str, Any]:
+        """Which of these values a person wants.
+
+        When a field loses the focus, the browser puts what was refused to the nearest value that
+        its control offers. Nobody asked for that: the control shows again what is in use.
+        """
+        clamped = {
+            name
+            for name in self._refused & set(values)
+            if isinstance(
+                control := self._controls[name], viser.GuiNumberHandle | viser.GuiSliderHandle
+            )
+            and values[name] in (control.min, control.max)
+        }
+        for name in clamped:
+            self._show(name, parameters)
+        self._refused -= clamped
+        return {name: value for name, value in values.items() if name not in clamped}
+
     def accept(self, parameters: Parameters) -> None:
         """Show that a change was taken.
 
         Only controls whose value was refused are set: a person may be moving the others.
         """
+        for name in self._sliders:
+            # More than a slider offers may be typed, or come from a file.
+            self._controls[name].max = max(self._controls[name].max, getattr(parameters, name))
         for name in self._refused:
-            value, control = getattr(parameters, name), self._controls[name]
-            if name in self._sliders and value > control.max:
-                control.max = value  # a file or a flag may ask for more than the slider offers
-            control.value = _UNSET if value is None else value
+            self._show(name, parameters)
         self._refused.clear()
         self._refusal.visible = False
+
+    def _show(self, name: str, parameters: Parameters) -> None:
+        value = getattr(parameters, name)
+        self._controls[name].value = _UNSET if value is None else value
 
     def refuse(self, names: Iterable[str], reason: str) -> None:
         """Say why values are not taken; the controls stay, so that a person can go on typing."""

@@ -6,6 +6,7 @@ import viser
 from viser import Icon
 
 from app.library import Opened
+from app.page_fields import sets_along
 from app.panel import Desk, Panel, Shown
 from app.panels.playback_wishes import (
     STEPS,
@@ -28,6 +29,7 @@ class PlaybackPanel(Panel):
     def __init__(self, desk: Desk) -> None:
         gui, post = desk.client.gui, desk.post
         self._post = post
+        self._arrived = False
         with gui.add_folder("Playback"):
             self._slider = gui.add_slider(
                 "Frame", min=0, max=1, step=1, initial_value=0, hint="The frame k that is shown."
@@ -99,6 +101,7 @@ class PlaybackPanel(Panel):
         self._slider.max = last
         self._range.max = max(last, 1)
         self._range.value = (0, max(last, 1))
+        self._arrived = False
 
     def show(self, shown: Shown) -> None:
         """Show where playback is."""
@@ -113,13 +116,18 @@ class PlaybackPanel(Panel):
         )
         self._play.label = "Pause" if shown.playing else "Play"
         self._play.icon = Icon.PLAYER_PAUSE if shown.playing else Icon.PLAYER_PLAY
-        self._strip.content = strip(shown.timeline, shown.playback)
+        self._strip.content = strip(
+            shown.timeline, shown.playback, sets_along(self._slider, len(stamps) - 1)
+        )
         self._follow(shown.playback)
 
     def _follow(self, playback: Playback) -> None:
         # Keys change speed and loop too; the range has no keys, and is left to its slider.
         self._speed.value = speed_name(playback.speed)
         self._loop.value = playback.loop
+        if not self._arrived:
+            self._arrived = True
+            self._range.value = (playback.first, max(playback.last, 1))
 
     def _change(self, event: viser.GuiEvent, **values: Any) -> None:  # noqa: ANN401 (any field)
         if event.client_id is not None:

@@ -1,7 +1,7 @@
 """What plots of viser lack: a line at the current time, and clicks that go to a time.
 
 The line is a style sheet, so that a new frame costs a hundred bytes and no plot is drawn again.
-A click is written into a number field, as if a person had typed it there.
+A click is written into a number field, by what `app.page_fields` has set up.
 """
 
 import viser
@@ -19,16 +19,10 @@ if (!window.tofscopePlotsListen) {
     const plot = event.target.closest('.u-over');
     if (!plot || !plot.matches('%(plot)s')) return;
     const {field, start, end} = window.tofscopePlots;
-    const input = document.getElementById(field);
-    if (!input) return;
-    const box = plot.getBoundingClientRect();
-    let time = start + (end - start) * (event.clientX - box.left) / box.width;
-    time = Math.round(1e3 * Math.min(Math.max(time, start), end)) / 1e3;
-    if (parseFloat(input.value) === time) time += time < end ? 1e-3 : -1e-3;
-    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(
-      input, time.toFixed(3));
-    input.dispatchEvent(new Event('input', {bubbles: true}));
-    input.dispatchEvent(new Event('focusout', {bubbles: true}));
+    let time = Math.round(1e3 * window.tofscopeAlong(event, plot, start, end)) / 1e3;
+    const shown = document.getElementById(field)?.value;
+    if (parseFloat(shown) === time) time += time < end ? 1e-3 : -1e-3;
+    window.tofscopeSet(field, time.toFixed(3));
   });
 }
 """

@@ -1,8 +1,24 @@
 """Tables of numbers, in the panel's small letters."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from app.colours import PICKED, css
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of a table.
+
+    Attributes:
+        cells: HTML.
+        marked: whether it is the one that is picked.
+        attributes: of its element, such as say what a click on it does.
+    """
+
+    cells: Sequence[str]
+    marked: bool = False
+    attributes: str = ""
 
 
 def framed(content: str) -> str:
@@ -10,15 +26,15 @@ def framed(content: str) -> str:
     return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
 
 
-def table(head: Sequence[str], rows: Iterable[tuple[bool, Sequence[str]]]) -> str:
-    """A table whose cells are HTML; rows that are True are marked."""
+def table(head: Sequence[str], rows: Iterable[Row]) -> str:
+    """A table under a head of HTML cells."""
     cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
     first = "".join(f"<th {cell}>{name}</th>" for name in head)
     body = "".join(
-        f'<tr style="border-top: 1px solid rgba(128, 128, 128, 0.3){_mark(marked)}">'
-        + "".join(f"<td {cell}>{content}</td>" for content in cells)
+        f'<tr style="border-top: 1px solid rgba(128, 128, 128, 0.3){_look(row)}" {row.attributes}>'
+        + "".join(f"<td {cell}>{content}</td>" for content in row.cells)
         + "</tr>"
-        for marked, cells in rows
+        for row in rows
     )
     return (
         '<table style="width: 100%; border-collapse: collapse; vertical-align: top; '
@@ -31,5 +47,6 @@ def signed(value: float, form: str) -> str:
     return form.format(value).replace("-", "−")
 
 
-def _mark(marked: bool) -> str:
-    return f"; box-shadow: inset 3px 0 {css(PICKED)}; font-weight: bold" if marked else ""
+def _look(row: Row) -> str:
+    mark = f"; box-shadow: inset 3px 0 {css(PICKED)}; font-weight: bold" if row.marked else ""
+    return f"{mark}; cursor: pointer" if row.attributes else mark

@@ -9,8 +9,14 @@ _EMPTY = "#868e96"
 _WIDTH = 1000  # of the drawing, stretched to the slider's
 
 
-def strip(timeline: Timeline, playback: Playback) -> str:
-    """HTML: motion, gaps and empty frames along the frames, what is not played pale."""
+def strip(timeline: Timeline, playback: Playback, attributes: str) -> str:
+    """HTML: motion, gaps and empty frames along the frames, what is not played pale.
+
+    Args:
+        timeline: of the recording.
+        playback: how it is played.
+        attributes: of the picture, which say what a click in it does.
+    """
     x = _Scale(timeline.count)
     marks = [_bar(x(a), x(b), 2, 8, css(FLOW)) for a, b in timeline.moving]
     marks += [_bar(x(a), x(b), 4, 4, _EMPTY) for a, b in timeline.empty]
@@ -26,7 +32,8 @@ def strip(timeline: Timeline, playback: Playback) -> str:
         ' font-size: 0.65rem; line-height: 1.15">'
         f'<div style="width: 6.3rem; flex: none">{said}</div>'
         f'<svg viewBox="0 0 {_WIDTH} 12" preserveAspectRatio="none" width="100%" height="12"'
-        f' role="img" aria-label="timeline">{base}{shown}{"".join(marks)}</svg></div>'
+        f' style="cursor: pointer" role="img" aria-label="timeline" {attributes}>'
+        f"{base}{shown}{''.join(marks)}</svg></div>"
     )
 
 

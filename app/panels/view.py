@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+import numpy as np
 import viser
 from viser import Icon
 
@@ -56,14 +57,14 @@ class ViewPanel(Panel):
             command = self._gui.add_command(f"View: {view}", hotkey=key, icon=Icon.CAMERA)
             command.on_trigger(lambda _, view=view: self._post(Look(view)))
 
-        drawn = [Lens(0.0, 1.0)]
+        drawn = [(Lens(0.0, 1.0), 0.0)]
 
         @camera.on_update
         async def _(camera: viser.CameraHandle) -> None:
             # While it only turns, nothing has to be drawn anew.
-            lens = Lens.of(camera)
-            if not lens.similar(drawn[0]):
-                drawn[0] = lens
+            lens, aspect = Lens.of(camera), camera.image_width / max(camera.image_height, 1)
+            if not lens.similar(drawn[0][0]) or not np.isclose(aspect, drawn[0][1], rtol=0.02):
+                drawn[0] = (lens, aspect)
                 self._post(CameraMoved())
 
     def _add_colours(self) -> None:

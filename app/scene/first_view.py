@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 
+_SMALLEST = 0.15  # metres, half the size of what fills the picture
 _REACH = 0.9  # metres around the sensors, within which things matter most
 
 
@@ -23,6 +24,7 @@ def first_view(
     poses: NDArray[np.float64],
     R_drawing_fixed: Vector,
     fov: float,
+    aspect: float,
     moving: Vector | None = None,
 ) -> View:
     """A view of the sensors and of what they see near by.
@@ -32,6 +34,7 @@ def first_view(
         poses: (S, 4, 4) T_fixed_sensor, NaN where not known.
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         fov: vertical field of view of the camera, rad.
+        aspect: width by height of the picture.
         moving: (M, 3) points in the fixed frame that are to be seen, wherever they are.
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
@@ -40,10 +43,28 @@ def first_view(
     if moving is not None and len(moving):
         box += [*np.percentile(moving @ R_drawing_fixed.T, [5, 95], axis=0)]
     low, high = np.min(box, axis=0), np.max(box, axis=0)
-    centre = (low + high) / 2
-    radius = max(float(np.linalg.norm(high - low)) / 2, 0.25)
+    centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
-    return View(centre + 0.85 * direction * radius / np.sin(fov / 2), centre)
+    distance = _distance(half, direction, np.tan(fov / 2), aspect)
+    return View(centre + distance * direction, centre)
+
+
+def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> float:
+    """Metres from the centre of a box at which all its corners are just in the picture.
+
+    Args:
+        half: (3,) metres, half the size of the box.
+        direction: (3,) unit vector from its centre to the camera.
+        slope: of the picture's upper edge.
+        aspect: width by height of the picture.
+    """
+    signs = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
+    right = np.cross([0.0, 0.0, 1.0], direction)
+    right = right / np.linalg.norm(right)
+    up = np.cross(direction, right)
+    ways = signs * half
+    aside = np.maximum(np.abs(ways @ right) / aspect, np.abs(ways @ up)) / slope
+    return float((aside + ways @ direction).max())
 
 
 def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:

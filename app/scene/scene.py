@@ -94,8 +94,8 @@ class Scene:
         self._shown = None
         self._speed_limit = 0.0
 
-    def place_camera(self, pair: Pair, view: str = THREE_D, aspect: float = 16 / 9) -> None:
-        """Put the camera where the pair and its sensors are seen well.
+    def place_camera(self, pair: Pair, view: str = THREE_D, aspect: float = 16 / 9) -> Camera:
+        """Put the camera where the pair and its sensors are seen well, and say where that is.
 
         Args:
             pair: what is to be seen.
@@ -109,6 +109,7 @@ class Scene:
         camera.look_at = placed.look_at
         # The browser may be telling where its camera was, at this very moment.
         self._focus(Lens.between(placed.position, placed.look_at, fov))
+        return _camera(placed.position, placed.look_at, fov)
 
     def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
         """Where a camera stands for the view of this name, and its vertical field of view, rad."""
@@ -145,8 +146,7 @@ class Scene:
     def camera(self) -> Camera:
         """Where the camera stands."""
         camera = self._canvas.camera
-        (x, y, z), (a, b, c) = np.asarray(camera.position), np.asarray(camera.look_at)
-        return Camera((float(x), float(y), float(z)), (float(a), float(b), float(c)), camera.fov)
+        return _camera(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
 
     def stand(self, place: Camera) -> None:
         """Put the camera there."""
@@ -260,6 +260,11 @@ class Scene:
             for name in names:
                 if node := self._canvas.scene.get_handle_by_name(name):
                     node.visible = layer in self._settings.layers
+
+
+def _camera(position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float) -> Camera:
+    (x, y, z), (a, b, c) = position.tolist(), look_at.tolist()
+    return Camera((x, y, z), (a, b, c), float(fov))
 
 
 def _truth_arrow(

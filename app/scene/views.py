@@ -56,7 +56,9 @@ def named_view(
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     axes = poses[:, :3, 2] @ R_drawing_fixed.T
-    slanted = first_view(pair.target.points, poses, R_drawing_fixed, film.fov, _moving(pair))
+    slanted = first_view(
+        pair.target.points, poses, R_drawing_fixed, film.fov, film.aspect, _moving(pair)
+    )
     moving = _moving(pair) @ R_drawing_fixed.T
     if name == ROBOT and len(sensors):
         return _from_robot(points, sensors, axes, moving)

@@ -1,8 +1,39 @@
 """What the app's tests share."""
 
+import time
+
 import pytest
 
+import app.estimates
+from app.estimates import Estimates
+from app.library import Library
+from app.reloads import Reloads
+from app.session import Session, Shared
+from estimator import Parameters
+from recordings import RecordingError
 from tests.app.fake_client import FakeClient
+from tests.app.fake_recordings import fake_recording
+from tests.app.waiting import until
+
+
+class Runs:
+    """Runs of the estimator, which may be told to fail."""
+
+    def __init__(self, monkeypatch):
+        self.parameters, self.delay, self.error = [], 0.0, None
+        real = app.estimates.estimate_scene_flow
+
+        def run(source, target, interval, parameters):
+            self.parameters.append(parameters)
+            time.sleep(self.delay)
+            if self.error:
+                raise self.error
+            return real(source, target, interval, parameters)
+
+        monkeypatch.setattr(app.estimates, "estimate_scene_flow", run)
+
+    def __len__(self):
+        return len(self.parameters)
 
 
 @pytest.fixture
@@ -15,3 +46,35 @@ def client():
 def _own_configuration(tmp_path_factory, monkeypatch):
     """Nothing of the person who runs the tests is read or changed."""
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("config")))
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    return Runs(monkeypatch)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name in ("a.mcap", "b.mcap", "bad.mcap"):
+        (tmp_path / name).touch()
+    return tmp_path
+
+
+@pytest.fixture
+def shared(folder):
+    def opener(path):
+        if path.stem == "bad":
+            raise RecordingError(f"{path} is no recording.")
+        return fake_recording(name=path.stem)
+
+    return Shared(Library([folder], opener), Estimates(), Reloads(), Parameters())
+
+
+@pytest.fixture
+def session(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    yield session
+    session.close()
+    session.join(10)
+    assert not session._thread.is_alive()

@@ -1,5 +1,4 @@
 import io
-import re
 import threading
 import time
 from dataclasses import replace
@@ -7,13 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PIL import Image
-from viser._messages import RunJavascriptMessage
 
-import app.estimates
 from app.estimates import Estimates
 from app.library import Library
 from app.parameter_files import from_text
-from app.places import Camera, Place, from_token
 from app.reloads import Reloads
 from app.scene.stage import FIXED
 from app.session import Session, Shared
@@ -23,58 +19,6 @@ from recordings import RecordingError
 from tests.app.fake_client import FakeClient
 from tests.app.fake_recordings import FRAMES, fake_recording
 from tests.app.waiting import until
-
-
-class Runs:
-    """Runs of the estimator, which may be told to fail."""
-
-    def __init__(self, monkeypatch):
-        self.parameters, self.delay, self.error = [], 0.0, None
-        real = app.estimates.estimate_scene_flow
-
-        def run(source, target, interval, parameters):
-            self.parameters.append(parameters)
-            time.sleep(self.delay)
-            if self.error:
-                raise self.error
-            return real(source, target, interval, parameters)
-
-        monkeypatch.setattr(app.estimates, "estimate_scene_flow", run)
-
-    def __len__(self):
-        return len(self.parameters)
-
-
-@pytest.fixture
-def runs(monkeypatch):
-    return Runs(monkeypatch)
-
-
-@pytest.fixture
-def folder(tmp_path):
-    for name in ("a.mcap", "b.mcap", "bad.mcap"):
-        (tmp_path / name).touch()
-    return tmp_path
-
-
-@pytest.fixture
-def shared(folder):
-    def opener(path):
-        if path.stem == "bad":
-            raise RecordingError(f"{path} is no recording.")
-        return fake_recording(name=path.stem)
-
-    return Shared(Library([folder], opener), Estimates(), Reloads(), Parameters())
-
-
-@pytest.fixture
-def session(client, shared, runs):
-    session = Session(client, shared)
-    until(lambda: "Moving" in client.text())
-    yield session
-    session.close()
-    session.join(10)
-    assert not session._thread.is_alive()
 
 
 def points(client, node):
@@ -323,121 +267,6 @@ def test_the_end_of_a_session_gives_everything_back(client, shared, runs):
     assert recording.closed
     assert shared.library._shared == {}
     assert "session" not in [t.name for t in threading.enumerate()]
-
-
-def test_a_reload_finds_what_it_left_and_a_second_tab_begins_anew(session, client, shared, runs):
-    client.change("Recording", "b")
-    client.change("δ", 0.3)
-    client.change("Frame", 33)
-    until(lambda: "Frame 33 of" in client.text() and runs.parameters[-1].delta == 0.3)
-    with FakeClient.on_a_server(client.local_storage) as tab:
-        other = Session(tab, shared)
-        until(lambda: "Moving" in tab.text())
-        assert tab.control("δ").value == 0.04
-        assert tab.control("Recording").value == "a"
-        other.close()
-        other.join(10)
-
-
-def test_a_reload_restores(client, shared, runs):
-    session = Session(client, shared)
-    until(lambda: "Moving" in client.text())
-    client.change("Recording", "b")
-    client.change("δ", 0.3)
-    until(lambda: runs.parameters[-1].delta == 0.3)
-    client.change("Frame", 33)
-    until(lambda: "Frame 33 of" in client.text())
-    session.close()
-    session.join(10)
-    with FakeClient.on_a_server(client.local_storage) as again:
-        session = Session(again, shared)
-        until(lambda: "Frame 33 of" in again.text())
-        assert again.control("Recording").value == "b"
-        assert again.control("δ").value == 0.3
-        session.close()
-        session.join(10)
-
-
-def test_a_reload_restores_camera_and_view_too(client, shared, runs):
-    session = Session(client, shared)
-    until(lambda: "Moving" in client.text())
-    client.change("Arrow scale", 1.5)
-    client.change("Robot", False)
-    client.change("Dark", True)
-    until(lambda: not client.node(f"{FIXED}/robot").visible)
-    client.camera.position, client.camera.look_at = np.array([5.0, 6.0, 7.0]), np.ones(3)
-    session.close()
-    session.join(10)
-    with FakeClient.on_a_server(client.local_storage) as again:
-        session = Session(again, shared)
-        until(lambda: "Moving" in again.text())
-        assert again.control("Arrow scale").value == 1.5
-        assert again.control("Dark").value
-        assert not again.node(f"{FIXED}/robot").visible
-        np.testing.assert_allclose(again.camera.position, [5.0, 6.0, 7.0])
-        again.change("Recording", "b")  # which is seen as it is seen first
-        until(lambda: not np.allclose(again.camera.position, [5.0, 6.0, 7.0]))
-        session.close()
-        session.join(10)
-
-
-def arrive(client, shared, token):
-    """A session whose page was opened with a link."""
-    client.local_storage.set_item("link", token)
-    session = Session(client, shared)
-    until(lambda: "Moving" in client.text() or "No pair" in client.text())
-    session.close()
-    session.join(10)
-
-
-def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, runs):
-    camera = Camera((1.0, 2.0, 3.0), (0.5, 0.25, 0.0), 0.7)
-    arrive(client, shared, Place("b", 31, Parameters(n=5, delta=0.01), camera).token())
-    assert client.control("Recording").value == "b"
-    assert client.control("Frame").value == 31
-    assert set(runs.parameters) == {Parameters(n=5, delta=0.01)}
-    assert tuple(client.camera.position) == camera.position
-    assert tuple(client.camera.look_at) == camera.look_at
-    assert client.local_storage.get_item("link") is None
-    # What was left is found again, and not the link.
-    with FakeClient.on_a_server(client.local_storage) as again:
-        session = Session(again, shared)
-        until(lambda: "Frame 31 of" in again.text())
-        session.close()
-        session.join(10)
-
-
-@pytest.mark.parametrize(
-    ("token", "sentence"),
-    [
-        ("nonsense", "The link is damaged"),
-        (Place("zz", 3, Parameters()).token(), "The recording zz is not among those"),
-    ],
-)
-def test_a_link_that_leads_nowhere_is_told(client, shared, runs, token, sentence):
-    arrive(client, shared, token)
-    assert any(sentence in said for said in client.notifications)
-    assert client.control("Recording").value == "a"
-
-
-def test_the_link_that_is_copied_leads_here(session, client):
-    client.change("δ", 0.3)
-    client.change("Frame", 30)
-    until(lambda: "Frame 30 of" in client.text())
-    client.take_sent()
-    client.press("Copy link")
-    until(lambda: client.notifications)
-    scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
-    (token,) = re.findall(r"\?link=([\w-]+)`", "".join(scripts))
-    place = from_token(token)
-    assert (place.label, place.frame, place.parameters.delta) == ("a", 30, 0.3)
-    assert place.camera == session_camera(client)
-
-
-def session_camera(client):
-    camera = client.camera
-    position, look_at = (tuple(np.round(v, 4).tolist()) for v in (camera.position, camera.look_at))
-    return Camera(position, look_at, round(camera.fov, 4))
 
 
 def test_two_clients_keep_their_own_parameters_and_share_the_recording(session, client, shared):

@@ -62,12 +62,12 @@ def test_without_truth_the_known_estimates_do():
 
 
 def test_the_strip_names_what_it_shows_and_nothing_else():
-    drawn = strip(Timeline(40, (7,), (), ((5, 9),)), Playback(0, 39))
+    drawn = strip(Timeline(40, (7,), (), ((5, 9),)), Playback(0, 39), "")
     assert "moving" in drawn
     assert "gap" in drawn
     assert "empty" not in drawn
-    assert "empty" in strip(Timeline(40, (), ((0, 1),), ()), Playback(0, 39))
+    assert "empty" in strip(Timeline(40, (), ((0, 1),), ()), Playback(0, 39), "")
 
 
 def test_the_strip_of_a_single_frame_is_drawn():
-    assert "<rect" in strip(Timeline(1, (), (), ((0, 0),)), Playback(0, 0))
+    assert "<rect" in strip(Timeline(1, (), (), ((0, 0),)), Playback(0, 0), "")

@@ -46,6 +46,17 @@ def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
     tab.until(lambda: not tab.has_text("Moving: fitness"))
 
 
+def test_a_click_on_a_row_of_the_table_picks_its_cluster_and_another_lets_it_go(tab: Tab):
+    tab.page.get_by_text("Explain", exact=True).click()
+    row = tab.page.locator("tr[data-sets]", has_text="moving")
+    row.click()
+    tab.until(lambda: tab.has_text("Moving: fitness"))
+    assert {tuple(p) for p in tab.arrows()[:, 0]} <= {tuple(p) for p in tab.points("picked/points")}
+    row.click()
+    tab.until(lambda: not tab.has_text("Moving: fitness"))
+    assert tab.row("Cluster").locator("input").first.input_value() == "none"
+
+
 def test_turning_the_camera_picks_nothing(tab: Tab):
     tab.page.get_by_text("Explain", exact=True).click()
     x, y = pixel(tab, tab.arrows()[0, 0])

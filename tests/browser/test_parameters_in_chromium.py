@@ -42,3 +42,38 @@ def test_a_preset_survives_a_reload_and_a_file_goes_out_and_in(tab: Tab, tmp_pat
     file.write_text(json.dumps({**content, "delta": 0.1, "n": 5}))
     tab.page.set_input_files("input[type=file]", file)
     tab.until(lambda: tab.value("δ") == 0.1 and tab.value("n") == 5)
+
+
+def test_more_than_a_slider_offers_can_be_typed(tab: Tab):
+    number = tab.row("n").locator("input:not([type=hidden])")
+    number.fill("25")
+    number.blur()
+    tab.until(lambda: tab.has_text("is before the start"))
+    tab.page.wait_for_timeout(300)
+    assert tab.value("n") == 25
+    assert number.input_value() == "25"
+
+
+def test_a_number_out_of_range_is_refused_in_words_and_the_old_one_comes_back(tab: Tab):
+    number = tab.row("n").locator("input:not([type=hidden])")
+    refusal = tab.page.get_by_text("must be")
+    number.fill("5000")
+    tab.until(refusal.is_visible)
+    number.blur()
+    tab.until(lambda: tab.value("n") == 8 and number.input_value() == "8")
+    tab.page.wait_for_timeout(300)
+    assert "5000" in refusal.inner_text()
+    number.fill("20")
+    tab.until(lambda: not refusal.is_visible())
+    number.blur()
+    tab.page.wait_for_timeout(300)
+    assert tab.value("n") == 20
+
+
+def test_a_number_that_is_left_empty_comes_back(tab: Tab):
+    number = tab.row("N_min").locator("input:not([type=hidden])")
+    number.focus()
+    number.fill("")
+    number.blur()
+    tab.until(lambda: number.input_value() == "60")
+    assert tab.value("N_min") == 60

@@ -61,3 +61,14 @@ def test_the_palette_knows_playback(tab: Tab):
     tab.page.get_by_placeholder("Search commands").fill("First frame")
     press(tab, "Enter")
     tab.until(lambda: tab.has_text("Frame 0 of"))
+
+
+def test_a_click_in_the_timeline_goes_there(tab: Tab):
+    strip = tab.page.get_by_role("img", name="timeline")
+    last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
+    for share in (0.25, 0.9):
+        box = strip.bounding_box()
+        assert box is not None
+        tab.page.mouse.click(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+        tab.until(lambda share=share: abs(tab.value("Frame") - share * last) <= 1)
+        tab.until(lambda: tab.has_text(f"Frame {tab.value('Frame'):.0f} of"))

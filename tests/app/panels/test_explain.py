@@ -55,13 +55,17 @@ def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
     assert "<table" not in text
 
 
+def no_click(cluster):
+    return ""
+
+
 def test_the_table_marks_the_picked_cluster_alone(clusters, moving):
-    assert cluster_table(clusters, None).count(css(PICKED)) == 0
-    table = cluster_table([*clusters, replace(moving, index=9, rounds=())], moving.index)
+    assert cluster_table(clusters, None, no_click).count(css(PICKED)) == 0
+    table = cluster_table([*clusters, replace(moving, index=9, rounds=())], moving.index, no_click)
     assert table.count(css(PICKED)) == 1
     assert table.count("<tr") == 7
     assert "–" in table
-    assert "No clusters" in cluster_table([], None)
+    assert "No clusters" in cluster_table([], None, no_click)
 
 
 def test_bars_count_by_label_and_the_last_takes_what_lies_beyond():

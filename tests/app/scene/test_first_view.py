@@ -7,6 +7,7 @@ from app.scene.first_view import first_view
 from app.scene.stage import upright
 
 FOV = np.radians(50)
+ASPECT = 1.3
 
 
 def looking(position, forward):
@@ -18,7 +19,7 @@ def looking(position, forward):
     return pose
 
 
-def visible(view, points, aspect=1.3):
+def visible(view, points, aspect=ASPECT):
     """Whether points lie inside the picture of a camera with z up."""
     forward = view.look_at - view.position
     forward /= np.linalg.norm(forward)
@@ -32,7 +33,7 @@ def visible(view, points, aspect=1.3):
 
 def test_a_single_sensor_and_its_points_are_in_the_picture():
     wall = np.random.default_rng(0).uniform([0.8, -0.4, -0.4], [0.9, 0.4, 0.4], (60, 3))
-    view = first_view(wall, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV)
+    view = first_view(wall, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV, ASPECT)
     assert visible(view, np.zeros((1, 3))).all()
     assert visible(view, wall).mean() > 0.9
 
@@ -42,13 +43,13 @@ def test_far_walls_do_not_push_the_camera_away():
     near = rng.uniform(-0.5, 0.5, (300, 3))
     far = near * 8
     poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
-    alone = first_view(near, poses, np.eye(3), FOV)
-    both = first_view(np.vstack([near, far]), poses, np.eye(3), FOV)
+    alone = first_view(near, poses, np.eye(3), FOV, ASPECT)
+    both = first_view(np.vstack([near, far]), poses, np.eye(3), FOV, ASPECT)
     assert np.linalg.norm(both.position) < 1.3 * np.linalg.norm(alone.position)
 
 
 def test_nothing_known_still_gives_a_view():
-    view = first_view(np.zeros((0, 3)), np.full((3, 4, 4), np.nan), np.eye(3), FOV)
+    view = first_view(np.zeros((0, 3)), np.full((3, 4, 4), np.nan), np.eye(3), FOV, ASPECT)
     assert np.isfinite(view.position).all()
     assert np.linalg.norm(view.position - view.look_at) > 0.1
 
@@ -58,7 +59,7 @@ def test_the_camera_is_above_what_it_looks_at(seed):
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(50, 3))
     pose = looking(rng.normal(size=3), [*rng.normal(size=2), 0.1])
-    view = first_view(points, pose[None], np.eye(3), FOV)
+    view = first_view(points, pose[None], np.eye(3), FOV, ASPECT)
     assert view.position[2] > view.look_at[2]
 
 
@@ -76,12 +77,12 @@ def test_what_moves_is_in_the_picture_however_far_it_is():
     moving = np.array([0.0, 2.0, 0.5]) + rng.uniform(-0.1, 0.1, (50, 3))
     points = np.vstack([near, moving])
     poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
-    assert visible(first_view(points, poses, np.eye(3), FOV, moving), moving).all()
+    assert visible(first_view(points, poses, np.eye(3), FOV, ASPECT, moving), moving).all()
 
 
 def test_a_single_sensor_is_seen_with_what_it_looks_at_far_away():
     wall = np.random.default_rng(0).uniform([2.5, -1, -1], [2.6, 1, 1], (60, 3))
     close = np.random.default_rng(0).uniform([0.4, -0.1, -0.1], [0.5, 0.1, 0.1], (20, 3))
     points = np.vstack([wall, close])
-    view = first_view(points, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV)
+    view = first_view(points, looking([0, 0, 0], [1, 0, 0])[None], np.eye(3), FOV, ASPECT)
     assert visible(view, points).mean() > 0.8

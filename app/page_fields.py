@@ -1,0 +1,77 @@
+"""What is written into the page's fields where no person types it.
+
+HTML of viser cannot be clicked, and its plots neither. An element that carries the attributes of
+`sets` or `sets_along` hands a click on to a number field, a slider or a dropdown of the page, as
+if a person had entered it there. And a number that is left empty comes back.
+"""
+
+import viser
+
+from app.page_script import run
+
+_SCRIPT = """
+if (!window.tofscopeSet) {
+  const type = (input, text) => {
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(input, text);
+    input.dispatchEvent(new Event('input', {bubbles: true}));
+    input.dispatchEvent(new Event('focusout', {bubbles: true}));
+  };
+  const choose = (field, value, tries) => {  // its options are there a moment after it is opened
+    const list = document.getElementById(field.getAttribute('aria-controls'));
+    const options = list ? [...list.querySelectorAll('[role=option]')] : [];
+    const wanted = options.find(option => option.textContent === value);
+    if (wanted) wanted.click();
+    else if (tries > 0) setTimeout(() => choose(field, value, tries - 1), 30);
+  };
+  window.tofscopeSet = (id, value) => {
+    const field = document.getElementById(id);
+    if (!field) return;
+    if (field.getAttribute('aria-haspopup') === 'listbox') {
+      field.click();
+      choose(field, value, 20);
+      return;
+    }
+    const number = 'input:not([type=hidden])';
+    type(field.matches(number) ? field : field.parentElement.querySelector(number), value);
+  };
+  window.tofscopeAlong = (event, element, start, end) => {
+    const box = element.getBoundingClientRect();
+    const share = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1);
+    return start + (end - start) * share;
+  };
+  document.addEventListener('click', event => {
+    const element = event.target.closest('[data-sets]');
+    if (!element) return;
+    const {sets, value, end} = element.dataset;
+    const along = () => Math.round(window.tofscopeAlong(event, element, 0, Number(end))).toString();
+    window.tofscopeSet(sets, value ?? along());
+  });
+  const number = target => target.matches('input.mantine-NumberInput-input');
+  document.addEventListener('focusin', ({target}) => {
+    if (number(target)) target.dataset.before = target.value;
+  });
+  document.addEventListener('focusout', ({target}) => {
+    if (number(target) && target.value === '') type(target, target.dataset.before);
+  });
+}
+"""
+
+
+def set_up_fields(client: viser.ClientHandle) -> None:
+    """Let the page do so from now on."""
+    run(client, _SCRIPT)
+
+
+def sets(control: viser.GuiInputHandle, value: str) -> str:
+    """Attributes of an element on which a click sets a control to a value.
+
+    Args:
+        control: a dropdown that has this option, or a number field.
+        value: as the control shows it; without quotes.
+    """
+    return f'data-sets="{control._impl.uuid}" data-value="{value}"'
+
+
+def sets_along(control: viser.GuiInputHandle, end: int) -> str:
+    """Attributes of an element along which a click sets a slider, whole numbers from 0 to `end`."""
+    return f'data-sets="{control._impl.uuid}" data-end="{end}"'
