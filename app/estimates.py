@@ -13,11 +13,13 @@ from app.memory import Memory
 from app.timeline import Outline, Timeline
 from estimator import (
     MOVING_SPEED,
+    CloudPair,
     Label,
     Metrics,
     Parameters,
     SceneFlow,
-    estimate_scene_flow,
+    cloud_pair,
+    estimate_pair,
 )
 from recordings import Cloud, PairTruth
 from robot_assets import Transform
@@ -82,22 +84,32 @@ def warm_up() -> None:
     steps = np.linspace(0.0, 0.1, 6)
     patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
     cloud = np.vstack([patch, patch + 2.0])
-    estimate_scene_flow(cloud, cloud, 1.0, Parameters())
+    estimate_pair(cloud_pair(cloud, cloud, 1.0), Parameters())
+
+
+@dataclass(frozen=True)
+class _Prepared:
+    """A pair before its estimate, and its clouds with what is known of them already."""
+
+    pair: Pair
+    clouds: CloudPair | None
 
 
 class Estimates:
-    """Clouds and flows, bounded in number, for all sessions.
+    """Clouds, pairs and flows, bounded in number, for all sessions.
 
     Args:
         clouds: how many clouds are remembered.
+        pairs: of how many pairs it is remembered what does not depend on the thresholds.
         flows: how many estimates are remembered.
 
     Attributes:
         foreground: says when somebody waits for an estimate.
     """
 
-    def __init__(self, clouds: int = 400, flows: int = 400) -> None:
+    def __init__(self, clouds: int = 400, pairs: int = 200, flows: int = 400) -> None:
         self._clouds: Memory[tuple, Cloud] = Memory(clouds)
+        self._prepared: Memory[tuple, _Prepared] = Memory(pairs)
         self._pairs: Memory[tuple, Pair] = Memory(flows)
         self._outlines: Memory[tuple, Outline] = Memory(16)
         self.foreground = Foreground()
@@ -108,18 +120,7 @@ class Estimates:
         Raises:
             RecordingError: the file is broken there.
         """
-        recording, source_k = opened.recording, k - parameters.n
-        target = self._cloud(opened, k, parameters.max_range)
-        if source_k < 0:
-            return Pair(k, target, None, float("nan"), recording.link_poses(k), None)
-        return Pair(
-            frame=k,
-            target=target,
-            source=self._cloud(opened, source_k, parameters.max_range),
-            interval=float(recording.stamps[k] - recording.stamps[source_k]),
-            link_poses=recording.link_poses(k),
-            truth=recording.pair_truth(source_k, k, parameters.max_range),
-        )
+        return self._prepare(opened, k, parameters).pair
 
     def estimated(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The pair (k-n, k) with its flow.
@@ -130,7 +131,7 @@ class Estimates:
 
         def make() -> Pair:
             with self.foreground:
-                return _estimate(self.pair(opened, k, parameters), parameters)
+                return _estimate(self._prepare(opened, k, parameters), parameters)
 
         return self._pairs.get((opened.key, k, parameters), make)
 
@@ -138,7 +139,7 @@ class Estimates:
         """The same where nobody waits for it: it is not counted as work in the foreground."""
         return self._pairs.get(
             (opened.key, k, parameters),
-            lambda: _estimate(self.pair(opened, k, parameters), parameters),
+            lambda: _estimate(self._prepare(opened, k, parameters), parameters),
         )
 
     def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
@@ -154,14 +155,37 @@ class Estimates:
             [pair is not None and pair.anything_moves for pair in known],
         )
 
+    def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> _Prepared:
+        key = (opened.key, k, parameters.n, parameters.max_range)
+        return self._prepared.get(key, lambda: self._make(opened, k, parameters))
+
+    def _make(self, opened: Opened, k: int, parameters: Parameters) -> _Prepared:
+        recording, source_k = opened.recording, k - parameters.n
+        target = self._cloud(opened, k, parameters.max_range)
+        if source_k < 0:
+            pair = Pair(k, target, None, float("nan"), recording.link_poses(k), None)
+            return _Prepared(pair, None)
+        source = self._cloud(opened, source_k, parameters.max_range)
+        interval = float(recording.stamps[k] - recording.stamps[source_k])
+        pair = Pair(
+            frame=k,
+            target=target,
+            source=source,
+            interval=interval,
+            link_poses=recording.link_poses(k),
+            truth=recording.pair_truth(source_k, k, parameters.max_range),
+        )
+        return _Prepared(pair, cloud_pair(source, target, interval))
+
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)
         return self._clouds.get(key, lambda: opened.recording.cloud(k, max_range))
 
 
-def _estimate(pair: Pair, parameters: Parameters) -> Pair:
-    if pair.source is None:
-        return pair
+def _estimate(prepared: _Prepared, parameters: Parameters) -> Pair:
+    if prepared.clouds is None:
+        return prepared.pair
     start = time.perf_counter()
-    flow = estimate_scene_flow(pair.source, pair.target, pair.interval, parameters)
-    return replace(pair, flow=flow, milliseconds=1e3 * (time.perf_counter() - start))
+    flow = estimate_pair(prepared.clouds, parameters)
+    milliseconds = 1e3 * (time.perf_counter() - start)
+    return replace(prepared.pair, flow=flow, milliseconds=milliseconds)

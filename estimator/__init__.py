@@ -3,8 +3,8 @@
 Arrays in, results out: nothing here knows a file, a viewer or a command line.
 """
 
-from estimator.cloud import CloudError, CloudPair
-from estimator.estimate import estimate_scene_flow
+from estimator.cloud import CloudError, CloudPair, cloud_pair
+from estimator.estimate import estimate_pair, estimate_scene_flow
 from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow
 from estimator.methods import method_names
 from estimator.metrics import MOVING_SPEED, Metrics, PooledErrors, angles_deg
@@ -25,6 +25,8 @@ __all__ = [
     "PooledErrors",
     "SceneFlow",
     "angles_deg",
+    "cloud_pair",
+    "estimate_pair",
     "estimate_scene_flow",
     "method_names",
 ]

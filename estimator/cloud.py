@@ -1,12 +1,14 @@
 """The two clouds that an estimate looks at."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from numbers import Real
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from estimator.stages import Stages
 
 _FARTHEST = 1e100  # metres; squares of what is larger overflow, and HDBSCAN then never returns
 
@@ -27,17 +29,19 @@ class HasPoints(Protocol):
 
 @dataclass(frozen=True)
 class CloudPair:
-    """Source and target of an estimate.
+    """Source and target of an estimate; nobody changes the clouds while it is used.
 
     Attributes:
         source: (N, 3) metres, P_{k-n}.
         target: (M, 3) metres, P_k, in the same frame.
         interval: seconds between the two stamps, above zero.
+        stages: what was found out about the pair already.
     """
 
     source: NDArray[np.float64]
     target: NDArray[np.float64]
     interval: float
+    stages: Stages = field(default_factory=Stages, repr=False, compare=False)
 
 
 def cloud_pair(

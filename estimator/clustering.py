@@ -8,18 +8,27 @@ from estimator.flow import Cluster
 from estimator.parameters import Parameters
 
 
-def clusters_of(pair: CloudPair, parameters: Parameters) -> list[Cluster]:
-    """Cluster the merged clouds with HDBSCAN.
+def clusters_of(pair: CloudPair, parameters: Parameters) -> tuple[Cluster, ...]:
+    """Cluster the merged clouds with HDBSCAN, once for each setting of it.
 
     The target's points come first in the merged cloud: ties in HDBSCAN depend on the order, so
     the order is fixed. Points that are not finite belong to no cluster. Fewer points than
     HDBSCAN needs give no cluster.
     """
+    settings = (
+        parameters.min_cluster_size,
+        parameters.min_samples,
+        parameters.allow_single_cluster,
+    )
+    return pair.stages.get(("clusters", settings), lambda: _clusters(pair, parameters))
+
+
+def _clusters(pair: CloudPair, parameters: Parameters) -> tuple[Cluster, ...]:
     finite_target = np.flatnonzero(np.isfinite(pair.target).all(axis=1))
     finite_source = np.flatnonzero(np.isfinite(pair.source).all(axis=1))
     merged = np.vstack([pair.target[finite_target], pair.source[finite_source]])
     if len(merged) < max(parameters.min_cluster_size, parameters.min_samples or 1, 2):
-        return []
+        return ()
     labels = HDBSCAN(
         min_cluster_size=parameters.min_cluster_size,
         min_samples=parameters.min_samples,
@@ -27,11 +36,11 @@ def clusters_of(pair: CloudPair, parameters: Parameters) -> list[Cluster]:
         copy=True,  # pyright: ignore[reportArgumentType] (inferred from a default of "warn")
     ).fit_predict(merged)
     labels_target, labels_source = np.split(labels, [len(finite_target)])
-    return [
+    return tuple(
         Cluster(
             index,
             source=finite_source[labels_source == index],
             target=finite_target[labels_target == index],
         )
         for index in range(labels.max() + 1)
-    ]
+    )

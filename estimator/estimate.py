@@ -2,7 +2,7 @@
 
 from numpy.typing import ArrayLike
 
-from estimator.cloud import HasPoints, cloud_pair
+from estimator.cloud import CloudPair, HasPoints, cloud_pair
 from estimator.flow import SceneFlow
 from estimator.methods import method
 from estimator.parameters import Parameters
@@ -29,4 +29,13 @@ def estimate_scene_flow(
     Raises:
         CloudError: a cloud of the wrong shape, or an interval not above zero.
     """
-    return method(parameters.method)(cloud_pair(source, target, interval), parameters)
+    return estimate_pair(cloud_pair(source, target, interval), parameters)
+
+
+def estimate_pair(pair: CloudPair, parameters: Parameters) -> SceneFlow:
+    """The same for a pair that is estimated again and again, with other parameters.
+
+    What an earlier estimate of the pair found out, and these parameters do not change, is not
+    computed again: with other γ, δ and N_min the clustering and all ICP rounds done so far stay.
+    """
+    return method(parameters.method)(pair, parameters)

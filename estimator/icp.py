@@ -56,10 +56,15 @@ def register(
         _CRITERIA,
     )
     correspondences = np.asarray(result.correspondence_set, dtype=np.intp).reshape(-1, 2)
+    transformation = np.array(result.transformation)
+    R, t = transformation[:3, :3], transformation[:3, 3]
+    gaps = source[correspondences[:, 0]] @ R.T + t - target[correspondences[:, 1]]
+    squares = np.einsum("ij,ij->i", gaps, gaps)
     return Registration(
-        transformation=np.array(result.transformation),
+        transformation=transformation,
         fitness=float(result.fitness),
-        inlier_rmse=float(result.inlier_rmse),
+        # Open3D's own sum depends on how its threads share the points, in the last digit.
+        inlier_rmse=float(np.sqrt(squares.mean())) if len(squares) else 0.0,
         inlier_source=correspondences[:, 0],
         inlier_target=correspondences[:, 1],
     )

@@ -30,14 +30,24 @@ def icp_round(
 ) -> tuple[IcpRound, NDArray[np.float64]]:
     """Lines 8-12 of Algorithm 1: ICP, its transformation, and the displacements D^C it causes.
 
+    ICP runs once for the same points, whatever thresholds its result is held against later.
+
     Returns:
         The round, and D^C (len(source), 3) in metres.
     """
+    reach = parameters.max_correspondence_distance
+    current = pair.stages.get(
+        ("icp", reach, source.tobytes(), target.tobytes()),
+        lambda: _round(source, target, pair, reach),
+    )
+    return current, _displacement(pair.source[source], current.transformation)
+
+
+def _round(source: Indices, target: Indices, pair: CloudPair, reach: float) -> IcpRound:
     points = pair.source[source]
-    icp = register(points, pair.target[target], parameters.max_correspondence_distance)
-    R, t = icp.transformation[:3, :3], icp.transformation[:3, 3]
-    displacement = points @ R.T + t - points
-    result = IcpRound(
+    icp = register(points, pair.target[target], reach)
+    displacement = _displacement(points, icp.transformation)
+    return IcpRound(
         source_size=len(source),
         target_size=len(target),
         fitness=icp.fitness,
@@ -47,4 +57,10 @@ def icp_round(
         inlier_source=source[icp.inlier_source],
         inlier_target=target[icp.inlier_target],
     )
-    return result, displacement
+
+
+def _displacement(
+    points: NDArray[np.float64], transformation: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    R, t = transformation[:3, :3], transformation[:3, 3]
+    return points @ R.T + t - points

@@ -74,7 +74,7 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
         Fact("Clusters", str(len(flow.clusters)) if flow else _NOTHING),
         Fact("Unassigned", _count(labels, Label.UNASSIGNED), colours.unassigned),
         Fact("Interval", _number(pair.interval, ".3f", " s")),
-        Fact("Estimate", _number(pair.milliseconds, ".0f", " ms")),
+        Fact("Estimate", _number(pair.milliseconds, ".1f", " ms")),
         Fact("Truth", _number(speed, ".3f", " m/s"), colours.truth),
         Fact("Angle error", _number(angle, ".1f", "°")),
         Fact("Vel. error", _number(velocity, ".3f", " m/s")),

@@ -21,16 +21,16 @@ class Runs:
 
     def __init__(self, monkeypatch):
         self.parameters, self.delay, self.error = [], 0.0, None
-        real = app.estimates.estimate_scene_flow
+        real = app.estimates.estimate_pair
 
-        def run(source, target, interval, parameters):
+        def run(pair, parameters):
             self.parameters.append(parameters)
             time.sleep(self.delay)
             if self.error:
                 raise self.error
-            return real(source, target, interval, parameters)
+            return real(pair, parameters)
 
-        monkeypatch.setattr(app.estimates, "estimate_scene_flow", run)
+        monkeypatch.setattr(app.estimates, "estimate_pair", run)
 
     def __len__(self):
         return len(self.parameters)

@@ -2,6 +2,8 @@ import numpy as np
 import pytest
 
 import app.estimates
+import estimator.clustering
+import estimator.rounds
 from app.estimates import Estimates, warm_up
 from estimator import Label, Parameters
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
@@ -13,13 +15,13 @@ MOVING = 100  # points of the moving patch, the last of the cloud
 def counted(monkeypatch):
     """How many times the estimator ran."""
     runs = []
-    real = app.estimates.estimate_scene_flow
+    real = app.estimates.estimate_pair
 
     def count(*arguments):
         runs.append(arguments)
         return real(*arguments)
 
-    monkeypatch.setattr(app.estimates, "estimate_scene_flow", count)
+    monkeypatch.setattr(app.estimates, "estimate_pair", count)
     return runs
 
 
@@ -95,3 +97,36 @@ def test_without_truth_there_are_no_errors():
 def test_warming_up_estimates_once(counted):
     warm_up()
     assert len(counted) == 1
+
+
+def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatch):
+    read, ran = [], []
+    fake = fake_recording()
+    for name in ("cloud", "pair_truth", "link_poses"):
+        real = getattr(fake, name)
+        setattr(fake, name, lambda *a, real=real: read.append(a) or real(*a))
+    for module, name in ((estimator.clustering, "HDBSCAN"), (estimator.rounds, "register")):
+        real = getattr(module, name)
+        monkeypatch.setattr(module, name, lambda *a, real=real, **k: ran.append(a) or real(*a, **k))
+    estimates, opened = Estimates(), fake_opened(fake)
+    estimates.estimated(opened, 20, Parameters(delta=0.05))
+    assert read
+    assert ran
+    read.clear()
+    ran.clear()
+    for parameters in (Parameters(delta=0.01), Parameters(gamma=0.3), Parameters(n_min=90)):
+        pair = estimates.estimated(opened, 20, parameters)
+        assert pair.anything_moves
+    assert estimates.estimated(opened, 20, Parameters(delta=1.0)).anything_moves is False
+    assert read == ran == []
+
+
+def test_what_is_remembered_of_pairs_is_bounded(monkeypatch):
+    runs, real = [], estimator.clustering.HDBSCAN
+    monkeypatch.setattr(
+        estimator.clustering, "HDBSCAN", lambda *a, **k: runs.append(k) or real(*a, **k)
+    )
+    estimates, opened = Estimates(pairs=2), fake_opened()
+    for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
+        estimates.estimated(opened, k, Parameters(delta=delta))
+    assert len(runs) == 4

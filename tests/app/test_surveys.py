@@ -30,13 +30,13 @@ class Listener:
 def runs(monkeypatch):
     """The parameters of every run of the estimator."""
     found = []
-    real = app.estimates.estimate_scene_flow
+    real = app.estimates.estimate_pair
 
-    def run(source, target, interval, parameters):
+    def run(pair, parameters):
         found.append(parameters)
-        return real(source, target, interval, parameters)
+        return real(pair, parameters)
 
-    monkeypatch.setattr(app.estimates, "estimate_scene_flow", run)
+    monkeypatch.setattr(app.estimates, "estimate_pair", run)
     return found
 
 

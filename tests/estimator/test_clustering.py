@@ -58,7 +58,7 @@ def test_patches_far_apart_are_clusters_of_their_own():
 def test_one_object_alone_needs_allow_single_cluster():
     scene = moved_patches(np.random.default_rng(0), np.zeros((1, 3)), size=60)
     pair = CloudPair(scene.source, scene.target, 1.0)
-    assert clusters_of(pair, Parameters()) == []
+    assert clusters_of(pair, Parameters()) == ()
     (alone,) = clusters_of(pair, Parameters(allow_single_cluster=True))
     assert len(alone.source) == len(alone.target) > 0
 
@@ -91,7 +91,7 @@ def test_points_that_are_not_finite_change_nothing_for_the_others(seed, share, v
 def test_fewer_points_than_hdbscan_needs_give_no_cluster(sizes, settings):
     rng = np.random.default_rng(0)
     source, target = (rng.normal(size=(size, 3)) for size in sizes)
-    assert clusters_of(CloudPair(source, target, 1.0), Parameters(**settings)) == []
+    assert clusters_of(CloudPair(source, target, 1.0), Parameters(**settings)) == ()
 
 
 @pytest.mark.parametrize("settings", [{"min_cluster_size": 20}, {"min_samples": 40}])

@@ -1,0 +1,166 @@
+"""What is remembered of a pair changes how long an estimate takes, and nothing else."""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import estimator.clustering
+import estimator.rounds
+from estimator import (
+    CloudPair,
+    Parameters,
+    SceneFlow,
+    cloud_pair,
+    estimate_pair,
+    estimate_scene_flow,
+    method_names,
+)
+from estimator.stages import Stages
+from tests.estimator.scenes import cluttered
+
+INTERVAL = 8 / 15
+
+walks = st.lists(
+    st.builds(
+        dict,
+        gamma=st.sampled_from([0.0, 0.3, 0.6, 0.7, 0.95, 1.0]),
+        delta=st.sampled_from([0.0, 0.02, 0.04, 0.1, 1.0]),
+        n_min=st.sampled_from([1, 20, 60, 200]),
+        method=st.sampled_from(method_names()),
+        min_cluster_size=st.sampled_from([5, 20, 21]),
+        min_samples=st.sampled_from([None, 4]),
+        allow_single_cluster=st.booleans(),
+        max_correspondence_distance=st.sampled_from([0.05, 0.1]),
+    ),
+    min_size=2,
+    max_size=8,
+)
+
+
+def contents(value: Any) -> Any:
+    """All numbers of a result bit by bit, NaN included."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.str, value.shape, value.tobytes()
+    if isinstance(value, tuple):
+        return tuple(contents(item) for item in value)
+    if dataclasses.is_dataclass(value):
+        return tuple(contents(getattr(value, f.name)) for f in dataclasses.fields(value))
+    return np.float64(value).tobytes() if isinstance(value, float) else value
+
+
+def counted(monkeypatch, module, name) -> list[Any]:
+    calls, real = [], getattr(module, name)
+    monkeypatch.setattr(module, name, lambda *a, **k: calls.append(a) or real(*a, **k))
+    return calls
+
+
+@pytest.fixture
+def clusterings(monkeypatch):
+    return counted(monkeypatch, estimator.clustering, "HDBSCAN")
+
+
+@pytest.fixture
+def icps(monkeypatch):
+    return counted(monkeypatch, estimator.rounds, "register")
+
+
+def pair_of(seed: int) -> CloudPair:
+    scene = cluttered(seed)
+    return cloud_pair(scene.source, scene.target, INTERVAL)
+
+
+@given(seed=st.integers(0, 999), walk=walks)
+@settings(max_examples=60)
+def test_a_walk_over_parameters_finds_what_each_estimate_finds_alone(seed, walk):
+    scene, pair = cluttered(seed), pair_of(seed)
+    for values in walk:
+        parameters = Parameters(**values)
+        alone = estimate_scene_flow(scene.source, scene.target, INTERVAL, parameters)
+        assert contents(estimate_pair(pair, parameters)) == contents(alone)
+
+
+def with_rounds(seed: int = 4) -> tuple[CloudPair, SceneFlow]:
+    """A pair whose estimate took several rounds over some cluster."""
+    pair = pair_of(seed)
+    flow = estimate_pair(pair, Parameters(gamma=0.95, n_min=5))
+    assert max(len(cluster.rounds) for cluster in flow.clusters) > 2
+    return pair, flow
+
+
+def test_lower_thresholds_need_nothing_new(clusterings, icps):
+    pair, _ = with_rounds()
+    clusterings.clear()
+    icps.clear()
+    for gamma, delta, n_min in ((0.95, 0.1, 5), (0.7, 0.0, 60), (0.0, 0.04, 20)):
+        estimate_pair(pair, Parameters(gamma=gamma, delta=delta, n_min=n_min))
+    assert clusterings == icps == []
+
+
+def test_a_higher_gamma_goes_on_where_the_lower_one_stopped(clusterings, icps):
+    pair = pair_of(4)
+    before = estimate_pair(pair, Parameters(gamma=0.3, n_min=5))
+    done = len(icps)
+    after = estimate_pair(pair, Parameters(gamma=0.95, n_min=5))
+    assert len(clusterings) == 1
+    assert done == sum(len(cluster.rounds) for cluster in before.clusters)
+    assert len(icps) == sum(len(cluster.rounds) for cluster in after.clusters) > done
+
+
+def test_a_smaller_n_min_looks_at_the_clusters_that_were_skipped(clusterings, icps):
+    pair = pair_of(4)
+    before = estimate_pair(pair, Parameters(gamma=0.0, n_min=100))
+    after = estimate_pair(pair, Parameters(gamma=0.0, n_min=5))
+    seen = [sum(bool(c.rounds) for c in flow.clusters) for flow in (before, after)]
+    assert len(icps) == seen[1] > seen[0]
+    assert len(clusterings) == 1
+
+
+def test_the_baseline_takes_clusters_and_first_rounds_from_the_paper(clusterings, icps):
+    pair, _ = with_rounds()
+    done = len(icps)
+    estimate_pair(pair, Parameters(method="baseline", n_min=5))
+    assert (len(clusterings), len(icps)) == (1, done)
+
+
+@pytest.mark.parametrize(
+    "values", [{"min_cluster_size": 21}, {"min_samples": 4}, {"allow_single_cluster": True}]
+)
+def test_every_setting_of_the_clustering_clusters_anew(values, clusterings):
+    pair = pair_of(0)
+    for parameters in (Parameters(), Parameters(**values), Parameters(), Parameters(**values)):
+        estimate_pair(pair, parameters)
+    assert len(clusterings) == 2
+
+
+def test_another_reach_of_icp_is_another_round(icps):
+    pair, _ = with_rounds()
+    done = len(icps)
+    parameters = Parameters(gamma=0.95, n_min=5, max_correspondence_distance=0.2)
+    flow = estimate_pair(pair, parameters)
+    assert len(icps) == done + sum(len(cluster.rounds) for cluster in flow.clusters)
+
+
+def test_an_estimate_of_plain_clouds_remembers_nothing(clusterings):
+    scene = cluttered(0)
+    for _ in range(2):
+        estimate_scene_flow(scene.source, scene.target, INTERVAL, Parameters())
+    assert len(clusterings) == 2
+
+
+def test_what_is_remembered_of_a_pair_is_bounded():
+    stages, made = Stages(), []
+
+    def result(key):
+        return stages.get(key, lambda: made.append(key) or key)
+
+    for key in range(2000):
+        assert result(key) == key
+        assert result("kept") == "kept"
+    assert len(stages) < 1000
+    assert made.count("kept") == 1
+    result(0)
+    assert made.count(0) == 2
