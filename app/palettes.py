@@ -29,6 +29,7 @@ class Palette:
         grid: of the grid's thin lines and of its thick ones.
         categories: for things of which there may be several, such as clusters.
         ramp: from little to much.
+        light: how bright the lamps are, 1 for full light; too much of it makes colours pale.
     """
 
     source: Colour
@@ -43,6 +44,7 @@ class Palette:
     grid: tuple[Colour, Colour]
     categories: tuple[Colour, ...]
     ramp: tuple[Colour, ...]
+    light: float
 
     def category(self, index: int) -> Colour:
         """The colour of thing number `index`; they repeat."""
@@ -91,6 +93,7 @@ _ALL = {
         grid=_LIGHT_GRID,
         categories=_CATEGORIES,
         ramp=_RAMP,
+        light=1.0,
     ),
     (PAPER, True): Palette(
         source=(255, 82, 76),
@@ -105,6 +108,7 @@ _ALL = {
         grid=_DARK_GRID,
         categories=_CATEGORIES,
         ramp=_BRIGHT_RAMP,
+        light=0.65,
     ),
     (COLOUR_BLIND, False): Palette(
         source=(213, 94, 0),
@@ -119,6 +123,7 @@ _ALL = {
         grid=_LIGHT_GRID,
         categories=_CATEGORIES,
         ramp=_RAMP,
+        light=1.0,
     ),
     (COLOUR_BLIND, True): Palette(
         source=(255, 140, 50),
@@ -133,6 +138,7 @@ _ALL = {
         grid=_DARK_GRID,
         categories=_CATEGORIES,
         ramp=_BRIGHT_RAMP,
+        light=0.65,
     ),
 }
 

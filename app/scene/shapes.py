@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.colours import Colour
 from robot_assets import Robot
 
+_DARKEST = 84  # of a colour: what is darker cannot be told from a dark background
 # Faces that meet at a sharper angle than this keep an edge; the others are shaded smoothly.
 _EDGE = np.radians(35.0)
 
@@ -81,12 +82,13 @@ def _parts(mesh: trimesh.Trimesh) -> tuple[Part, ...]:
     parts: list[Part] = []
     for index, colour in enumerate(colours):
         piece = trimesh.Trimesh(mesh.vertices, mesh.faces[of_face.reshape(-1) == index])
+        red, green, blue = (max(int(channel), _DARKEST) for channel in colour)
         piece = trimesh.graph.smooth_shade(piece, angle=_EDGE)
         parts.append(
             Part(
                 np.asarray(piece.vertices, dtype=np.float32),
                 np.asarray(piece.faces, dtype=np.uint32),
-                (int(colour[0]), int(colour[1]), int(colour[2])),
+                (red, green, blue),
             )
         )
     return tuple(parts)

@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 
 from app.palettes import Palette
 
+_Lamp = viser.HemisphereLightHandle | viser.DirectionalLightHandle
+
 FIXED = "/fixed"
 """The node of the fixed frame: whatever a recording holds is drawn below it."""
 
@@ -18,7 +20,7 @@ class Stage:
     """Light, a grid, and the fixed frame with its axes."""
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
-        _light(scene)
+        self._lamps = _light(scene)
         self._fixed = scene.add_frame(FIXED, show_axes=False)
         scene.add_frame(AXES, axes_length=0.12, axes_radius=0.004, origin_radius=0.0)
         cells, sections = palette.grid
@@ -33,10 +35,13 @@ class Stage:
             shadow_opacity=0.0,
             fade_distance=9.0,
         )
+        self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
-        """Draw the grid in the colours of a palette."""
+        """Draw the grid in the colours of a palette, and shine as brightly as it wants."""
         self._grid.cell_color, self._grid.section_color = palette.grid
+        for lamp, intensity in self._lamps:
+            lamp.intensity = palette.light * intensity
 
     def turn(self, R_drawing_fixed: NDArray[np.float64]) -> None:
         """Draw the fixed frame turned by a rotation (3, 3)."""
@@ -53,16 +58,21 @@ def upright(fixed_frame: str) -> NDArray[np.float64]:
     return np.eye(3)
 
 
-def _light(scene: viser.SceneApi) -> None:
-    """Even light from the sky and two lamps, cheaper than an environment map and its shadows."""
+def _light(scene: viser.SceneApi) -> list[tuple[_Lamp, float]]:
+    """Even light from the sky and two lamps, cheaper than an environment map and its shadows.
+
+    Returns:
+        Each lamp, and how bright it is in full light.
+    """
     scene.configure_environment_map(None)
     scene.configure_default_lights(enabled=False)
-    scene.add_light_hemisphere(
-        "/lights/sky", sky_color=(255, 255, 255), ground_color=(190, 195, 205), intensity=1.6
+    sky = scene.add_light_hemisphere(
+        "/lights/sky", sky_color=(255, 255, 255), ground_color=(190, 195, 205)
     )
-    scene.add_light_directional(
-        "/lights/key", intensity=1.5, position=(2.0, -3.0, 4.0), color=(255, 250, 243)
+    key = scene.add_light_directional(
+        "/lights/key", position=(2.0, -3.0, 4.0), color=(255, 250, 243)
     )
-    scene.add_light_directional(
-        "/lights/fill", intensity=0.6, position=(-3.0, 2.0, 2.5), color=(235, 242, 255)
+    fill = scene.add_light_directional(
+        "/lights/fill", position=(-3.0, 2.0, 2.5), color=(235, 242, 255)
     )
+    return [(sky, 1.6), (key, 1.5), (fill, 0.6)]

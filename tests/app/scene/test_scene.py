@@ -95,6 +95,14 @@ def test_arrows_tell_what_they_are_asked_for(scene, client, pair, shown):
     assert (drawn[0] != drawn[50]).any()
 
 
+def test_lamps_are_dimmer_in_the_dark(scene, client):
+    full = client.node("/lights/key").intensity
+    scene.change(ViewSettings(dark=True))
+    assert 0 < client.node("/lights/key").intensity < full
+    scene.change(ViewSettings())
+    assert client.node("/lights/key").intensity == full
+
+
 def test_another_palette_paints_everything(scene, client):
     scene.change(ViewSettings(colours=COLOUR_BLIND, dark=True))
     other = palette(COLOUR_BLIND, dark=True)
