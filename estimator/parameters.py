@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+import numpy as np
+
 from estimator.methods import method_names
 
 
@@ -41,7 +43,7 @@ class Parameters:
     """The parameters of an estimate; defaults are the paper's (section III-B) where it gives one.
 
     The paper leaves `min_cluster_size` and `max_correspondence_distance` open; their defaults
-    reproduce its tables best on simulated recordings.
+    reproduce its tables best on simulated recordings. Numbers of NumPy become Python's.
 
     Raises:
         ParameterError: a value is of the wrong type or outside its range; the sentence names it.
@@ -113,7 +115,11 @@ class Parameters:
 
     def __post_init__(self) -> None:
         for name, info in PARAMETER_INFO.items():
-            _check(name, info, getattr(self, name))
+            value = getattr(self, name)
+            if isinstance(value, np.generic):  # from an array of values to try; JSON knows none
+                value = value.item()
+                object.__setattr__(self, name, value)
+            _check(name, info, value)
 
 
 PARAMETER_INFO: dict[str, ParameterInfo] = {f.name: f.metadata["info"] for f in fields(Parameters)}

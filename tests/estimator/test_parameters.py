@@ -1,9 +1,11 @@
 """One definition of the parameters: defaults, ranges, sentences."""
 
+import json
 import math
-from dataclasses import FrozenInstanceError, fields
+from dataclasses import FrozenInstanceError, asdict, fields
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -93,6 +95,34 @@ def test_a_wrong_type_is_refused(name, value):
 def test_whole_numbers_are_whole(name):
     with pytest.raises(ParameterError, match=f"^{name} must be a whole number, got 8.0"):
         with_value(name, 8.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("n", np.int64(6)),
+        ("n_min", np.uint8(20)),
+        ("gamma", np.float32(0.5)),
+        ("delta", np.float64(0.25)),
+        ("delta", np.int32(1)),
+        ("allow_single_cluster", np.bool_(True)),
+        ("method", np.str_("baseline")),
+    ],
+)
+def test_values_of_numpy_become_pythons(name, value):
+    parameters = with_value(name, value)
+    assert type(getattr(parameters, name)) is type(value.item())
+    assert parameters == with_value(name, value.item())
+    assert json.loads(json.dumps(asdict(parameters)))[name] == value
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("n", np.float64(6)), ("gamma", np.bool_(True)), ("n", np.int64(0)), ("n", np.array([6]))],
+)
+def test_values_of_numpy_are_checked_as_others_are(name, value):
+    with pytest.raises(ParameterError, match=f"^{name} must be "):
+        with_value(name, value)
 
 
 @pytest.mark.parametrize("name", [n for n in NUMBERS if n != "min_samples"])

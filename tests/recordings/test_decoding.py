@@ -1,0 +1,141 @@
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from mcap.writer import Writer
+
+from recordings import RecordingError
+from recordings.decoding import Decoder, stamp_of
+from recordings.mcap_file import McapFile
+from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
+from tests.recordings.foreign import ForeignFile, header, image, twist
+
+STAMPS = [5, 1_700_000_000_123_456_789, 1_700_000_000_000_000_000]
+HEADER_ONLY = """std_msgs/Header header
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Iterator[McapFile]:
+    foreign = ForeignFile()
+    for log_time, stamp in enumerate(STAMPS):
+        pixels = np.full((8, 8), 100 + log_time, "<u2")
+        foreign.add("/eye", "sensor_msgs/msg/Image", image(stamp, "eye", pixels, "16UC1"), log_time)
+        velocity = twist(stamp + 1, "world", np.array([0.0, -0.2, 0.1]))
+        foreign.add("/target", "geometry_msgs/msg/TwistStamped", velocity, log_time)
+    opened = McapFile(foreign.write(tmp_path / "x.mcap"))
+    yield opened
+    opened.close()
+
+
+def channels(file: McapFile) -> dict:
+    return {channel.topic: channel for channel in file.channels}
+
+
+def test_fields_are_those_that_were_written(file: McapFile):
+    decoder = Decoder(file)
+    target, eye = channels(file)["/target"], channels(file)["/eye"]
+    assert decoder.can_decode(target)
+    linear = decoder.decode(target, 0).twist.linear
+    assert (linear.x, linear.y, linear.z) == (0.0, -0.2, 0.1)
+    pictures = [np.asarray(m.data).view("<u2") for m in decoder.messages(eye)]
+    assert [p[0] for p in pictures] == [100, 101, 102]
+    assert [stamp_of(message) for message in decoder.messages(eye)] == STAMPS
+
+
+def test_header_stamps_are_read_without_an_index(file: McapFile):
+    decoder = Decoder(file)
+    assert decoder.header_stamps(channels(file)["/eye"]).tolist() == STAMPS
+    decoder.read_stamps(file.channels)
+    stamps = decoder.header_stamps(channels(file)["/target"])
+    assert stamps.tolist() == [stamp + 1 for stamp in STAMPS]
+
+
+def headers(
+    path: Path, payloads: list[bytes], index: dict[str, list[int]] | None = None
+) -> McapFile:
+    """A file of messages that are a header and nothing else."""
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start("ros2")
+        schema = writer.register_schema("test_msgs/msg/Only", "ros2msg", HEADER_ONLY.encode())
+        channel = writer.register_channel("/only", "cdr", schema)
+        for k, payload in enumerate(payloads):
+            writer.add_message(channel, k, payload, k)
+        if index is not None:
+            writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(index))
+        writer.finish()
+    return McapFile(path)
+
+
+def cdr(sec: int, nanosec: int, order: str) -> bytes:
+    encapsulation = b"\x00\x01\x00\x00" if order == "little" else bytes(4)
+    body = sec.to_bytes(4, order, signed=True) + nanosec.to_bytes(4, order)  # type: ignore[arg-type]
+    return encapsulation + body + (1).to_bytes(4, order) + b"\x00"  # type: ignore[arg-type]
+
+
+def test_either_order_of_bytes_is_read(tmp_path: Path):
+    file = headers(tmp_path / "x.mcap", [cdr(7, 8, "little"), cdr(7, 8, "big")])
+    decoder, channel = Decoder(file), file.channels[0]
+    assert decoder.header_stamps(channel).tolist() == [7_000_000_008] * 2
+    assert [stamp_of(message) for message in decoder.messages(channel)] == [7_000_000_008] * 2
+    file.close()
+
+
+def test_an_index_is_believed_where_it_has_all_messages(tmp_path: Path):
+    payloads = [cdr(1, 0, "little"), cdr(2, 0, "little")]
+    whole = headers(tmp_path / "whole.mcap", payloads, {"/only": [41, 42]})
+    short = headers(tmp_path / "short.mcap", payloads, {"/only": [41]})
+    assert Decoder(whole).header_stamps(whole.channels[0]).tolist() == [41, 42]
+    assert Decoder(short).header_stamps(short.channels[0]).tolist() == [10**9, 2 * 10**9]
+    whole.close()
+    short.close()
+
+
+def test_a_message_that_is_too_short_is_said(tmp_path: Path):
+    file = headers(tmp_path / "x.mcap", [cdr(1, 0, "little"), b"\x00\x01\x00\x00\x01"])
+    decoder, channel = Decoder(file), file.channels[0]
+    with pytest.raises(RecordingError, match=r"a message of /only is too short"):
+        decoder.header_stamps(channel)
+    with pytest.raises(RecordingError, match=r"message 1 of /only: it does not fit the type"):
+        decoder.decode(channel, 1)
+    assert stamp_of(decoder.decode(channel, 0)) == 10**9
+    file.close()
+
+
+@pytest.mark.parametrize(
+    ("encoding", "schema", "fits"),
+    [
+        ("cdr", "ros2msg", True),
+        ("cdr", "ros2idl", True),
+        ("json", "jsonschema", False),
+        ("cdr", "protobuf", False),
+        ("ros1", "ros1msg", False),
+    ],
+)
+def test_what_can_be_decoded_is_told_by_its_encoding(
+    file: McapFile, encoding: str, schema: str, fits: bool
+):
+    channel = SimpleNamespace(encoding=encoding, schema_encoding=schema)
+    assert Decoder(file).can_decode(channel) is fits  # type: ignore[arg-type]
+
+
+def test_a_type_without_a_header_has_no_stamp():
+    with pytest.raises(RecordingError, match="no header stamp"):
+        stamp_of(SimpleNamespace(data=3))
+
+
+def test_stamps_are_whole_nanoseconds():
+    stamp = header(STAMPS[1], "eye")["stamp"]
+    message = SimpleNamespace(header=SimpleNamespace(stamp=SimpleNamespace(**stamp)))
+    assert stamp_of(message) == STAMPS[1]
