@@ -20,8 +20,8 @@ from app.recording_flags import (
     opening_from,
     recording_paths,
 )
+from app.recording_notes import notes
 from estimator import Metrics, Parameters
-from recordings import Recording
 
 _MEANS = tuple(key for key in COLUMNS if key not in ("pairs", "points_with_flow"))
 _TITLES = [title.split() for title, _ in COLUMNS.values()]
@@ -83,7 +83,7 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
                 row |= {"scenario": source.scenario, "speed": source.speed, "trial": source.trial}
             metrics = evaluate(recording, parameters)
             # After the evaluation: some things are found out only when frames are read.
-            warnings = _about(recording)
+            warnings = [f"{path}: {sentence}" for sentence in notes(recording)]
     except UserError as error:
         return row, [str(error)]
     if metrics is None:
@@ -100,18 +100,6 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
             f"move with {opening.truth_frame}."
         )
     return row | _as_json(metrics), warnings
-
-
-def _about(recording: Recording) -> list[str]:
-    said = list(recording.warnings)
-    if recording.duplicates:
-        said.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
-    if recording.unplaced:
-        said.append(
-            f"{recording.unplaced} of {len(recording)} frames are empty: they lie outside the "
-            f"poses that are known."
-        )
-    return [f"{recording.path}: {sentence}" for sentence in said]
 
 
 def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -2,68 +2,263 @@
 
 import argparse
 import os
+import shlex
+import sys
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from time import monotonic
+from typing import Any, TypeVar
 
 from app.errors import InputError
 from app.parameter_flags import add_parameter_flags, parameters_from
+from app.recording_flags import add_recording_flags, opening_from, recording_paths
 from app.study.execution import outcomes
-from app.study.paper_tables import table_1, table_2
-from app.study.plan import PAPER_SCENARIOS, SWEEP, Plan
-from app.study.progress import Progress
-from app.study.rows import rows_of
+from app.study.plan import ABLATION_SPEED, METHODS, SWEEP, Plan
+from app.study.progress import Progress, duration
+from app.study.report import PAGE, Study, write_report
 from app.study.software import software_digest
 from app.study.store import Store
-from app.study.text_files import as_markdown
+from app.study.text_files import as_plain
+from app.study.work import Recorded, Work
 from estimator import method_names
-from recordings.simulation import NOISE_MODELS, SCENARIOS, SPEEDS, TRIALS
+from recordings.simulation import (
+    IMPERFECTIONS,
+    NOISE_MODELS,
+    PAPER_SCENARIOS,
+    SCENARIOS,
+    SPEEDS,
+    TRIALS,
+)
+
+_T = TypeVar("_T")
+_SHOWN = ("table_1", "table_2")
+_OF_SIMULATION = ("scenario", "speed", "trial", "seed", "noise", "imperfections", "ablation")
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
     """Add the subcommand."""
-    parser = commands.add_parser("study", help="the paper's tables and figure, made again")
-    parser.add_argument("--out", type=Path, required=True, metavar="FOLDER")
-    parser.add_argument("--method", nargs="+", choices=method_names(), dest="methods")
-    parser.add_argument("--scenario", nargs="+", choices=list(SCENARIOS), default=PAPER_SCENARIOS)
-    parser.add_argument("--speed", nargs="+", type=float, default=SPEEDS)
-    parser.add_argument("--trial", nargs="+", type=int, default=TRIALS)
-    parser.add_argument("--sweep", nargs="*", type=int, default=SWEEP, metavar="N")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--noise", choices=list(NOISE_MODELS), default="paper")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
-    parser.add_argument("--dask", metavar="ADDRESS")
+    parser = commands.add_parser(
+        "study",
+        help="the paper's tables and its figure of n, made again",
+        description=(
+            "Make the paper's study again: simulate its 60 recordings (three scenarios, four "
+            "speeds, five trials), run every method on them, and write Tables I and II beside the "
+            "paper's own numbers, the sweep of n as a figure, further tables, and a page to read "
+            f"first, {PAGE}. With --recordings the same for recordings that are there. What is "
+            "finished is kept in the folder: the same command goes on where it was stopped. The "
+            "exit code is 1 where nothing could be evaluated."
+        ),
+    )
+    parser.add_argument(
+        "--out", type=Path, required=True, metavar="FOLDER", help="where everything is written"
+    )
+    parser.add_argument(
+        "--method",
+        dest="methods",
+        nargs="+",
+        choices=method_names(),
+        default=METHODS,
+        help=f"methods in the same tables (default {' '.join(METHODS)})",
+    )
+    parser.add_argument(
+        "--sweep",
+        nargs="*",
+        type=int,
+        default=SWEEP,
+        metavar="N",
+        help=f"values of n that are tried (default {SWEEP[0]} to {SWEEP[-1]}; none: no sweep)",
+    )
+    _add_sources(parser)
+    _add_execution(parser)
+    add_recording_flags(parser)
     add_parameter_flags(parser, leave_out=("method",))
     parser.set_defaults(run=run)
 
 
+def _add_sources(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("what is studied")
+    group.add_argument(
+        "--recordings",
+        nargs="+",
+        type=Path,
+        metavar="PATH",
+        help=(
+            "recordings or folders that are taken instead of simulated ones; those that say a "
+            "scenario of the paper, speed and trial enter its tables, every one gets its own line"
+        ),
+    )
+    # Only flags that are given are set: they make no sense beside --recordings.
+    unset = argparse.SUPPRESS
+    group.add_argument(
+        "--scenario",
+        nargs="+",
+        choices=list(SCENARIOS),
+        default=unset,
+        help=f"scenarios to simulate (default the paper's: {' '.join(PAPER_SCENARIOS)})",
+    )
+    group.add_argument(
+        "--speed", nargs="+", type=float, default=unset, metavar="M/S", help="default the paper's"
+    )
+    group.add_argument(
+        "--trial", nargs="+", type=int, default=unset, metavar="NUMBER", help="default 1 to 5"
+    )
+    group.add_argument(
+        "--seed", type=int, default=unset, help="seed of all random numbers (default 0)"
+    )
+    group.add_argument(
+        "--noise",
+        choices=list(NOISE_MODELS),
+        default=unset,
+        help="the sensors' errors, see tofscope simulate (default paper)",
+    )
+    group.add_argument(
+        "--imperfections",
+        nargs="+",
+        choices=list(IMPERFECTIONS),
+        default=unset,
+        help="what else is wrong, see tofscope simulate (default nothing)",
+    )
+    group.add_argument(
+        "--ablation",
+        action="store_true",
+        default=unset,
+        help=(
+            "a further table: what every noise model and every imperfection does to the errors, "
+            f"at {ABLATION_SPEED:g} m/s"
+        ),
+    )
+
+
+def _add_execution(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("where it runs")
+    group.add_argument(
+        "--jobs",
+        type=int,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="processes on this machine (default all cores)",
+    )
+    group.add_argument(
+        "--dask",
+        metavar="ADDRESS",
+        help=(
+            "run on the workers of a Dask scheduler instead, such as tcp://host:8786; they need "
+            "the same Tofscope and see the same paths (needs tofscope[dask])"
+        ),
+    )
+
+
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
-    plan = Plan(
-        parameters_from(options),
-        methods=tuple(options.methods or ("paper", "baseline")),
-        scenarios=tuple(options.scenario),
-        speeds=tuple(options.speed),
-        trials=tuple(options.trial),
-        sweep=tuple(options.sweep),
-        seed=options.seed,
-        noise=options.noise,
-    )
+    begin = monotonic()
+    plan = _plan(options)
     if options.jobs < 1:
         raise InputError(f"--jobs must be 1 or more, got {options.jobs}.")
     store = Store(options.out / "results", software_digest())
     works = plan.works()
     left = [work for work in map(store.missing, works) if work]
-    progress = Progress(len(works), len(works) - len(left))
+    if len(left) < len(works):
+        print(f"{len(works) - len(left)} of {len(works)} recordings are known from before.")
+    failures = _execute(options, store, left, len(works))
+    if failures is None:
+        return 130
+    finished = [outcome for work in works if (outcome := store.finished(work))]
+    failures += [
+        f"{outcome.source.name} has no truth, so there is nothing to compare with."
+        for outcome in finished
+        if not any(result.metrics for result in outcome.results)
+    ]
+    for failure in failures:
+        print(f"Not evaluated: {failure}", file=sys.stderr)
+    if not any(result.metrics for outcome in finished for result in outcome.results):
+        return 1
+    estimated = monotonic()
+    study = Study(plan, finished, failures, _command(), estimated - begin)
+    for table in write_report(study, options.out):
+        if table.name in _SHOWN:
+            print(as_plain(table))
+    making = sum(outcome.seconds for outcome in finished)
+    estimating = sum(result.seconds for outcome in finished for result in outcome.results)
+    print(
+        f"{duration(estimated - begin)} on the clock for the recordings (simulating or opening "
+        f"{duration(making)}, estimating {duration(estimating)} of one core, earlier runs "
+        f"included), {duration(monotonic() - estimated)} for tables and figure."
+    )
+    print(f"Read first: {options.out / PAGE}")
+    return 0
+
+
+def _execute(
+    options: argparse.Namespace, store: Store, left: list[Work], total: int
+) -> list[str] | None:
+    """Do what is left; sentences about what failed, or None where Ctrl-C stopped it."""
     failures: list[str] = []
-    for outcome in outcomes(left, options.jobs, options.dask):
-        store.keep(outcome)
-        if outcome.failure:
-            failures.append(outcome.failure)
-        progress.advance(outcome.source.name)
-    progress.close()
-    rows = rows_of(outcome for work in works if (outcome := store.finished(work)))
-    for table in (table_1(plan, rows), table_2(plan, rows)):
-        text = as_markdown(table)
-        (options.out / f"{table.name}.md").write_text(text, encoding="utf-8")
-        print(text)
-    return 0 if rows else 1
+    progress = Progress(total, total - len(left))
+    running = outcomes(left, options.jobs, options.dask)
+    try:
+        for outcome in running:
+            if outcome.failure:
+                failures.append(outcome.failure)
+            else:
+                store.keep(outcome)
+            progress.advance(outcome.source.name)
+    except KeyboardInterrupt:
+        progress.close()
+        print(
+            f"Stopped: {progress.finished} of {total} recordings are finished and kept; the same "
+            "command goes on from there.",
+            file=sys.stderr,
+        )
+        return None
+    finally:
+        running.close()
+        progress.close()
+    return failures
+
+
+def _plan(options: argparse.Namespace) -> Plan:
+    parameters = parameters_from(options)
+    given = [name for name in _OF_SIMULATION if name in options]
+    for n in options.sweep:
+        replace(parameters, n=n)  # ParameterError where it is out of range
+    plan = Plan(parameters, methods=_once(options.methods), sweep=_once(options.sweep))
+    if options.recordings:
+        if given:
+            raise InputError(
+                f"--{given[0]} says how recordings are simulated, and --recordings takes them as "
+                "they are; give one or the other."
+            )
+        opening_from(options)  # RigError or RobotError where a file cannot be used
+        return replace(
+            plan,
+            recordings=tuple(
+                Recorded(path, options.fixed_frame, options.truth_frame, options.rig, options.urdf)
+                for path in recording_paths(options.recordings)
+            ),
+        )
+    for name in ("fixed_frame", "truth_frame", "rig", "urdf"):
+        if getattr(options, name) is not None:
+            raise InputError(
+                f"--{name.replace('_', '-')} says how recordings are opened, and there are none "
+                "without --recordings."
+            )
+    wanted = {name: getattr(options, name) for name in given}
+    return replace(
+        plan,
+        scenarios=_once(wanted.get("scenario", PAPER_SCENARIOS)),
+        speeds=_once(wanted.get("speed", SPEEDS)),
+        trials=_once(wanted.get("trial", TRIALS)),
+        seed=wanted.get("seed", 0),
+        noise=wanted.get("noise", "paper"),
+        imperfections=tuple(n for n in IMPERFECTIONS if n in wanted.get("imperfections", ())),
+        ablation=wanted.get("ablation", False),
+    )
+
+
+def _once(values: Iterable[_T]) -> tuple[_T, ...]:
+    return tuple(dict.fromkeys(values))
+
+
+def _command() -> str:
+    return shlex.join(["tofscope", *sys.argv[1:]])

@@ -2,7 +2,7 @@
 
 import signal
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,9 @@ from app.study.work import Outcome, Work, do
 _PATIENCE = 10  # seconds to wait for a scheduler
 
 
-def outcomes(works: list[Work], jobs: int, dask: str | None = None) -> Iterator[Outcome]:
+def outcomes(
+    works: list[Work], jobs: int, dask: str | None = None
+) -> Generator[Outcome, None, None]:
     """Do the work and give what comes of it, whatever is finished first.
 
     Closing the iterator, or Ctrl-C, stops all that is under way.

@@ -59,6 +59,11 @@ def paper_numbers() -> PaperNumbers:
     return PaperNumbers(content["source"], rows)
 
 
+def method_label(method: str) -> str:
+    """How tables and figures call a method."""
+    return METHOD_LABELS.get(method, method)
+
+
 def experiment_label(scenario: str, method: str) -> str:
     """How tables call an experiment."""
-    return f"{LABELS.get(scenario, scenario)} ({METHOD_LABELS.get(method, method)})"
+    return f"{LABELS.get(scenario, scenario)} ({method_label(method)})"

@@ -4,13 +4,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import product
 
-from app.study.work import Recorded, Simulated, Source, Work
+from app.study.work import SWEPT_SCENARIO, Ask, Recorded, Simulated, Source, Work
 from estimator import Parameters
-from recordings.simulation import SPEEDS, TRIALS
+from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, PAPER_SCENARIOS, SPEEDS, TRIALS
 
-PAPER_SCENARIOS = ("towards", "sideways", "robot_moving")
 SWEEP = tuple(range(1, 11))
 """The values of n that are tried."""
+METHODS = ("paper", "baseline")
+"""The methods that the paper compares."""
+ABLATION_SPEED = 0.20
+"""m/s; the ablation runs at this speed alone, or at the first of a study without it."""
+_ABLATION_TRIALS = 3
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,12 @@ class Plan:
         seed: of the simulator.
         noise: name of the simulator's noise model.
         imperfections: names, in the registry's order.
+        ablation: whether noise models and imperfections are compared.
         recordings: that are taken instead of simulated ones, None to simulate.
     """
 
     parameters: Parameters
-    methods: tuple[str, ...] = ("paper", "baseline")
+    methods: tuple[str, ...] = METHODS
     scenarios: tuple[str, ...] = PAPER_SCENARIOS
     speeds: tuple[float, ...] = SPEEDS
     trials: tuple[int, ...] = TRIALS
@@ -39,20 +44,43 @@ class Plan:
     seed: int = 0
     noise: str = "paper"
     imperfections: tuple[str, ...] = ()
+    ablation: bool = False
     recordings: tuple[Recorded, ...] | None = None
 
     def works(self) -> list[Work]:
-        """Every unit of work, in a fixed order."""
-        parameters = self._parameters([self.parameters.n])
+        """Every unit of work, a recording once, in a fixed order."""
+        asks = tuple(Ask(parameters) for parameters in self._parameters([self.parameters.n]))
         sweep = self._parameters(self.sweep)
-        return [Work(source, parameters, sweep) for source in self._sources()]
+        works = {source: Work(source, asks, sweep) for source in self.sources()}
+        for source in self.ablation_sources():
+            works.setdefault(source, Work(source, asks))
+        return list(works.values())
 
-    def _sources(self) -> list[Source]:
+    def sources(self) -> list[Source]:
+        """The recordings of tables and sweep."""
         if self.recordings is not None:
             return list(self.recordings)
         return [
             Simulated(scenario, speed, trial, self.seed, self.noise, self.imperfections)
             for scenario, speed, trial in product(self.scenarios, self.speeds, self.trials)
+        ]
+
+    def ablation_sources(self) -> list[Source]:
+        """The recordings of the ablation, those of a condition beside each other."""
+        speed = ABLATION_SPEED if ABLATION_SPEED in self.speeds else self.speeds[0]
+        return [
+            Simulated(SWEPT_SCENARIO, speed, trial, self.seed, noise, imperfections)
+            for noise, imperfections in self.conditions()
+            for trial in self.trials[:_ABLATION_TRIALS]
+        ]
+
+    def conditions(self) -> list[tuple[str, tuple[str, ...]]]:
+        """Noise models alone, then each imperfection alone with the noise of the study."""
+        if not self.ablation:
+            return []
+        return [
+            *((noise, ()) for noise in NOISE_MODELS),
+            *((self.noise, (name,)) for name in IMPERFECTIONS),
         ]
 
     def _parameters(self, values: Iterable[int]) -> tuple[Parameters, ...]:

@@ -11,19 +11,22 @@ class Progress:
     Args:
         total: units of work in all.
         finished: of them, known from before.
+
+    Attributes:
+        finished: units of work, those from before included.
     """
 
     def __init__(self, total: int, finished: int) -> None:
         self._total = total
         self._before = finished
-        self._finished = finished
+        self.finished = finished
         self._begin = monotonic()
         self._live = sys.stdout.isatty()
 
     def advance(self, name: str) -> None:
         """A unit of work is finished."""
-        self._finished += 1
-        line = f"{self._finished}/{self._total}  {name}  {self._left()}"
+        self.finished += 1
+        line = f"{self.finished}/{self._total}  {name}  {self._left()}"
         if self._live:
             width = shutil.get_terminal_size().columns - 1
             print(f"\r\x1b[K{line[:width]}", end="", flush=True)
@@ -36,10 +39,10 @@ class Progress:
             print("\r\x1b[K", end="", flush=True)
 
     def _left(self) -> str:
-        left = self._total - self._finished
+        left = self._total - self.finished
         if not left:
             return "all finished"
-        each = (monotonic() - self._begin) / (self._finished - self._before)
+        each = (monotonic() - self._begin) / (self.finished - self._before)
         return f"{left} left, about {duration(each * left)}"
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.study.work import Outcome, Simulated
+from app.study.work import Outcome, Source
 from estimator import Parameters
 
 Value = float | int | str | None
@@ -17,42 +17,55 @@ class Row:
     """A recording with one set of parameters.
 
     Attributes:
-        name: of the recording.
+        source: the recording.
         scenario: None where the recording does not say.
         speed: m/s, None where the recording does not say.
         trial: None where the recording does not say.
-        noise: name of the noise model, None where it was not simulated.
-        imperfections: names.
         parameters: of the estimate.
         metrics: {field of `Metrics`: value}, empty without truth.
+        why: where no point got a flow, what became of the moving ones.
     """
 
-    name: str
+    source: Source
     scenario: str | None
     speed: float | None
     trial: int | None
-    noise: str | None
-    imperfections: tuple[str, ...]
     parameters: Parameters
     metrics: dict[str, float | None]
+    why: str | None = None
 
 
 def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
     """Every result as a row, in the order of the outcomes."""
     return [
         Row(
-            outcome.source.name,
+            outcome.source,
             outcome.scenario,
             outcome.speed,
             outcome.trial,
-            outcome.noise,
-            outcome.source.imperfections if isinstance(outcome.source, Simulated) else (),
-            result.parameters,
+            result.ask.parameters,
             result.metrics or {},
+            result.why,
         )
         for outcome in outcomes
         for result in outcome.results
     ]
+
+
+def cell(rows: Iterable[Row], scenario: str, method: str, speed: float, n: int) -> list[Row]:
+    """The trials of one cell of a table, in their order."""
+    here = [
+        row
+        for row in rows
+        if (row.scenario, row.speed) == (scenario, speed)
+        and (row.parameters.method, row.parameters.n) == (method, n)
+    ]
+    return sorted(here, key=lambda row: (row.trial or 0, row.source.name))
+
+
+def speeds_of(rows: Iterable[Row], scenario: str) -> list[float]:
+    """The speeds at which there are recordings of a scenario, in m/s, rising."""
+    return sorted({r.speed for r in rows if r.scenario == scenario and r.speed is not None})
 
 
 def values(rows: Iterable[Row], metric: str) -> list[float]:
@@ -63,7 +76,11 @@ def values(rows: Iterable[Row], metric: str) -> list[float]:
 
 def mean(rows: Iterable[Row], metric: str) -> float | None:
     """Mean of a metric over the rows in which it is defined, None where there is none."""
-    found = values(rows, metric)
+    return mean_of(values(rows, metric))
+
+
+def mean_of(found: list[float]) -> float | None:
+    """Mean, None of nothing."""
     return math.fsum(found) / len(found) if found else None
 
 

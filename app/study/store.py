@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import InputError
-from app.study.work import Outcome, Recorded, Result, Source, Work
+from app.study.work import Ask, Outcome, Recorded, Result, Source, Work
 from estimator import Parameters
 
 
@@ -39,17 +39,17 @@ class Store:
         found = self._load(work.source)
         if found is None:
             return None
-        known = {result.parameters: result for result in found.results}
+        known = {result.ask: result for result in found.results}
         wanted = work.wanted(found.scenario)
-        return replace(found, results=tuple(known[p] for p in wanted if p in known))
+        return replace(found, results=tuple(known[ask] for ask in wanted if ask in known))
 
     def missing(self, work: Work) -> Work | None:
         """What remains to be done of a unit of work, None where all is known."""
         found = self.finished(work)
         if found is None:
             return work
-        known = {result.parameters for result in found.results}
-        left = tuple(p for p in work.wanted(found.scenario) if p not in known)
+        known = {result.ask for result in found.results}
+        left = tuple(ask for ask in work.wanted(found.scenario) if ask not in known)
         return Work(work.source, left) if left else None
 
     def keep(self, outcome: Outcome) -> None:
@@ -61,8 +61,8 @@ class Store:
         if outcome.failure:
             return
         before = self._load(outcome.source)
-        known = {r.parameters: r for r in (before.results if before else ())}
-        known |= {r.parameters: r for r in outcome.results}
+        known = {r.ask: r for r in (before.results if before else ())}
+        known |= {r.ask: r for r in outcome.results}
         path = self._path(outcome.source)
         content = asdict(replace(outcome, results=tuple(known.values())))
         content["source"] = _as_json(outcome.source)
@@ -78,7 +78,12 @@ class Store:
         try:
             content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
             results = tuple(
-                Result(Parameters(**r["parameters"]), r["metrics"], r["seconds"])
+                Result(
+                    Ask(Parameters(**r["ask"]["parameters"]), r["ask"]["resting"]),
+                    r["metrics"],
+                    r["seconds"],
+                    r["why"],
+                )
                 for r in content["results"]
             )
             kept = {k: content[k] for k in ("scenario", "speed", "trial", "noise", "frames")}

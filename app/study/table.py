@@ -14,12 +14,14 @@ class Column:
         title: for people.
         form: format of its numbers, such as ".3f"; "" for text.
         group: title that it shares with its neighbours, "" for none.
+        theirs: whether its numbers are the paper's and not ours.
     """
 
     key: str
     title: str
     form: str = ""
     group: str = ""
+    theirs: bool = False
 
     @property
     def full_title(self) -> str:
@@ -44,6 +46,17 @@ class Table:
     note: str
     columns: tuple[Column, ...]
     rows: tuple[dict[str, Value], ...]
+
+    @property
+    def groups(self) -> list[tuple[str, int]]:
+        """(title, columns) of each group, from left to right; "" for a column without."""
+        found: list[tuple[str, int]] = []
+        for column in self.columns:
+            if found and column.group and found[-1][0] == column.group:
+                found[-1] = (column.group, found[-1][1] + 1)
+            else:
+                found.append((column.group, 1))
+        return found
 
 
 UNDEFINED = "–"

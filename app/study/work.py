@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from time import perf_counter
-from typing import Any
+from time import thread_time
 
 from threadpoolctl import threadpool_limits
 
 from app.errors import UserError
 from app.evaluation import evaluate
+from app.recording_notes import notes
+from app.study.diagnosis import why_no_flow
 from app.study.software import software_digest
 from estimator import Parameters
 from recordings import Recording, open_recording
@@ -69,23 +70,37 @@ Source = Simulated | Recorded
 
 
 @dataclass(frozen=True)
+class Ask:
+    """What a recording is evaluated with.
+
+    Attributes:
+        parameters: of the estimates, method included.
+        resting: whether pairs at which nothing moves are estimated, too (for `false_flow`).
+    """
+
+    parameters: Parameters
+    resting: bool = True
+
+
+@dataclass(frozen=True)
 class Work:
     """A recording and what it is evaluated with.
 
     Attributes:
         source: the recording.
-        parameters: that it is evaluated with.
-        sweep: parameters for the sweep, used where the recording shows the swept scenario.
+        asks: for every recording.
+        sweep: parameters that are tried where the recording shows the swept scenario.
     """
 
     source: Source
-    parameters: tuple[Parameters, ...]
+    asks: tuple[Ask, ...]
     sweep: tuple[Parameters, ...] = ()
 
-    def wanted(self, scenario: str | None) -> tuple[Parameters, ...]:
-        """What a recording of a scenario is evaluated with, each once."""
+    def wanted(self, scenario: str | None) -> tuple[Ask, ...]:
+        """What a recording of a scenario is evaluated with, each set of parameters once."""
+        asked = {ask.parameters for ask in self.asks}
         sweep = self.sweep if scenario == SWEPT_SCENARIO else ()
-        return tuple(dict.fromkeys(self.parameters + sweep))
+        return (*self.asks, *(Ask(p, resting=False) for p in sweep if p not in asked))
 
 
 @dataclass(frozen=True)
@@ -93,14 +108,16 @@ class Result:
     """What came of one set of parameters.
 
     Attributes:
-        parameters: that were used.
+        ask: that is answered.
         metrics: {field of `Metrics`: its value, None where undefined}; None without truth.
-        seconds: that it took.
+        seconds: of one core, that it took.
+        why: where no point got a flow, what became of the moving ones, in a sentence.
     """
 
-    parameters: Parameters
+    ask: Ask
     metrics: dict[str, float | None] | None
     seconds: float
+    why: str | None = None
 
 
 @dataclass(frozen=True)
@@ -114,8 +131,8 @@ class Outcome:
         trial: its number, None where it does not say.
         noise: name of the noise model, None where it was not simulated.
         frames: in the recording.
-        seconds: that making or opening it took.
-        results: one for each set of parameters.
+        seconds: of one core, that making or opening it took.
+        results: one for each ask.
         warnings: sentences about the recording.
         failure: why there are no results, in a sentence.
     """
@@ -160,7 +177,7 @@ def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
 @contextmanager
 def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, float]]:
     """The recording, and the seconds that it took to make or open it."""
-    begin = perf_counter()
+    begin = thread_time()
     if isinstance(source, Recorded):
         with open_recording(
             source.path,
@@ -169,7 +186,7 @@ def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, f
             load_rig(source.rig) if source.rig else None,
             load_robot(source.urdf) if source.urdf else None,
         ) as recording:
-            yield recording, perf_counter() - begin
+            yield recording, thread_time() - begin
         return
     with tempfile.TemporaryDirectory(prefix="tofscope-study-", dir=scratch) as folder:
         path = Path(folder) / f"{source.name}.mcap"
@@ -180,11 +197,12 @@ def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, f
             trial=source.trial,
             seed=source.seed,
             noise=NOISE_MODELS[source.noise],
+            imperfections=source.imperfections,
             robot=load_robot(),
             rig=load_rig(),
         )
         with open_recording(path) as recording:
-            yield recording, perf_counter() - begin
+            yield recording, thread_time() - begin
 
 
 def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
@@ -197,15 +215,16 @@ def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
             trial=made.trial,
             noise=made.noise.partition(":")[0],
         )
-    results: list[Result] = []
-    for parameters in work.wanted(outcome.scenario):
-        begin = perf_counter()
-        metrics = evaluate(recording, parameters)
-        values = None if metrics is None else _defined(asdict(metrics))
-        results.append(Result(parameters, values, perf_counter() - begin))
+    results = tuple(_result(recording, ask) for ask in work.wanted(outcome.scenario))
     # After the evaluation: some warnings come up only when frames are read.
-    return replace(outcome, results=tuple(results), warnings=recording.warnings)
+    return replace(outcome, results=results, warnings=tuple(notes(recording)))
 
 
-def _defined(values: dict[str, Any]) -> dict[str, float | None]:
-    return {key: None if math.isnan(value) else value for key, value in values.items()}
+def _result(recording: Recording, ask: Ask) -> Result:
+    begin = thread_time()
+    metrics = evaluate(recording, ask.parameters, with_resting=ask.resting)
+    if metrics is None:
+        return Result(ask, None, thread_time() - begin)
+    values = {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
+    why = None if metrics.points_with_flow else why_no_flow(recording, ask.parameters)
+    return Result(ask, values, thread_time() - begin, why)

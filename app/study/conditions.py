@@ -1,0 +1,55 @@
+"""What was run, in words: conditions, commands and versions."""
+
+import shlex
+from dataclasses import fields
+
+from app.study.plan import Plan
+from estimator import PARAMETER_INFO, Parameters
+from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
+
+
+def conditions(plan: Plan) -> str:
+    """A sentence for a caption: simulated or recorded, noise, imperfections, seed, parameters."""
+    if plan.recordings is not None:
+        return f"Recordings that were given. {parameters_text(plan)}."
+    also = ", ".join(plan.imperfections) or "none"
+    return (
+        f"Simulated, not measured: noise model {plan.noise}, imperfections {also}, seed "
+        f"{plan.seed}. {parameters_text(plan)}."
+    )
+
+
+def parameters_text(plan: Plan) -> str:
+    """Every parameter with its value."""
+    return ", ".join(
+        f"{field.name} = {value:g} {PARAMETER_INFO[field.name].unit}".strip()
+        if isinstance(value := getattr(plan.parameters, field.name), int | float)
+        and not isinstance(value, bool)
+        else f"{field.name} = {'unset' if value is None else str(value).lower()}"
+        for field in fields(Parameters)
+        if field.name != "method"
+    )
+
+
+def simulator_texts(plan: Plan) -> list[str]:
+    """Sentences about noise model and imperfections."""
+    return [
+        f"Noise model {plan.noise}: {NOISE_MODELS[plan.noise].text}.",
+        *(f"Imperfection {name}: {IMPERFECTIONS[name].text}." for name in plan.imperfections),
+    ]
+
+
+def simulate_commands(plan: Plan) -> list[str]:
+    """The commands that make the study's recordings as files."""
+    also = ["--imperfections", *plan.imperfections] if plan.imperfections else []
+    return [
+        shlex.join(
+            [
+                *("tofscope", "simulate", *plan.scenarios),
+                *("--speed", *(f"{speed:g}" for speed in plan.speeds)),
+                *("--trial", *map(str, plan.trials)),
+                *("--seed", str(plan.seed), "--noise", plan.noise, *also),
+                *("--out", "recordings"),
+            ]
+        )
+    ]

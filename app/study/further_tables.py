@@ -1,0 +1,158 @@
+"""What stands beside the paper's tables: the field's metrics, sweep, ablation, recordings."""
+
+from itertools import product
+
+from app.evaluation import COLUMNS
+from app.study.paper import experiment_label
+from app.study.plan import Plan
+from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
+from app.study.table import Column, Table
+from app.study.work import SWEPT_SCENARIO, Simulated
+from recordings.simulation import IMPERFECTIONS
+
+_COUNTS = ("pairs", "points_with_flow")
+_PAPERS = ("angle_deg", "velocity_error")
+_METRICS = {
+    key: Column(key, title, "d" if key in _COUNTS else form)
+    for key, (title, form) in COLUMNS.items()
+}
+
+
+def metrics_table(plan: Plan, rows: list[Row]) -> Table:
+    """The field's metrics of every experiment, means over trials."""
+    shown = [key for key in COLUMNS if key not in _PAPERS]
+    lines: list[dict[str, Value]] = []
+    scenarios = list(dict.fromkeys(row.scenario for row in rows if row.scenario))
+    for scenario, method in product(scenarios, plan.methods):
+        for speed in speeds_of(rows, scenario):
+            here = cell(rows, scenario, method, speed, plan.parameters.n)
+            line: dict[str, Value] = {
+                "experiment": experiment_label(scenario, method),
+                "speed": speed,
+            }
+            for key in shown:
+                found = values(here, key)
+                line[key] = round(sum(found)) if key in _COUNTS and found else mean_of(found)
+            lines.append(line)
+    return Table(
+        "metrics",
+        "The field's metrics",
+        "Means over trials; pairs and points are sums. EPE3D, AccS, AccR and outliers compare "
+        "every source point with its own truth over a pair; their thresholds (0.05, 0.10, 0.30 m) "
+        "were made for longer ways than the 0.08 to 0.16 m of these pairs, so that a point at "
+        "rest, or without a flow, often counts as accurate. Read them with coverage and precision. "
+        "False flow: points at rest that got a flow, of all at rest, over all pairs.",
+        (
+            Column("experiment", "Experiment"),
+            Column("speed", "Speed (m/s)", ".2f"),
+            *(_METRICS[key] for key in shown),
+        ),
+        tuple(lines),
+    )
+
+
+def sweep_table(plan: Plan, rows: list[Row]) -> Table | None:
+    """Error over n as a share of the target speed; None where nothing was swept."""
+    speeds = speeds_of(rows, SWEPT_SCENARIO)
+    if not plan.sweep or not speeds:
+        return None
+    columns = [Column("method", "Method"), Column("n", "n", "d")]
+    for speed in speeds:
+        group = f"{speed:.2f} m/s"
+        columns += [
+            Column(f"error_percent_{speed:.2f}", "error (%)", ".1f", group),
+            Column(f"coverage_{speed:.2f}", "coverage", ".2f", group),
+            Column(f"trials_{speed:.2f}", "trials", "", group),
+        ]
+    lines: list[dict[str, Value]] = []
+    for method, n in product(plan.methods, sorted(plan.sweep)):
+        line: dict[str, Value] = {"method": method, "n": n}
+        for speed in speeds:
+            here = cell(rows, SWEPT_SCENARIO, method, speed, n)
+            line[f"error_percent_{speed:.2f}"] = error_percent(here)
+            line[f"coverage_{speed:.2f}"] = mean(here, "coverage")
+            line[f"trials_{speed:.2f}"] = f"{len(values(here, 'velocity_error'))}/{len(here)}"
+        lines.append(line)
+    return Table(
+        "sweep",
+        "The sweep of n in the y-axis experiment",
+        "Error: linear velocity error, mean over points and time, then over the trials in which a "
+        "point got a flow, as a share of the target speed. Where no trial gave a flow it could not "
+        "be computed and is shown as a dash. Trials: those with a flow, of all there are.",
+        tuple(columns),
+        tuple(lines),
+    )
+
+
+def error_percent(trials: list[Row]) -> float | None:
+    """Linear velocity error of one cell as a share of its speed, in percent."""
+    error = mean(trials, "velocity_error")
+    return 100 * error / trials[0].speed if error is not None and trials[0].speed else None
+
+
+def ablation_table(plan: Plan, rows: list[Row]) -> Table | None:
+    """What each noise model and each imperfection does to the errors; None without `--ablation`."""
+    if not plan.ablation:
+        return None
+    lines: list[dict[str, Value]] = []
+    for (noise, imperfections), method in product(plan.conditions(), plan.methods):
+        here = [
+            row
+            for row in rows
+            if isinstance(row.source, Simulated)
+            and (row.source.noise, row.source.imperfections) == (noise, imperfections)
+            and row.parameters.method == method
+        ]
+        line: dict[str, Value] = {
+            "noise": noise,
+            "imperfection": " ".join(imperfections) or "none",
+            "method": method,
+            "angle_deg_std": std(here, "angle_deg"),
+            "velocity_error_std": std(here, "velocity_error"),
+        }
+        lines.append(line | {key: mean(here, key) for key in COLUMNS if key not in _COUNTS})
+    first = plan.ablation_sources()[0]
+    assert isinstance(first, Simulated)
+    trials = len({row.trial for row in rows})
+    columns = [Column(key, key.capitalize()) for key in ("noise", "imperfection", "method")]
+    for key in COLUMNS:
+        if key not in _COUNTS:
+            columns.append(_METRICS[key])
+        if key in _PAPERS:
+            columns.append(Column(f"{key}_std", "std", COLUMNS[key][1]))
+    return Table(
+        "ablation",
+        "What noise models and imperfections do to the errors",
+        f"A part of the study: {experiment_label(first.scenario, '')[:-3]} experiment at "
+        f"{first.speed:g} m/s, trials 1 to {trials}, n = {plan.parameters.n}. Each noise model "
+        f"without imperfections, then each imperfection alone with the noise model {plan.noise}"
+        f"{': ' + '; '.join(f'{i.name}, {i.text}' for i in IMPERFECTIONS.values())}.",
+        tuple(columns),
+        tuple(lines),
+    )
+
+
+def recordings_table(plan: Plan, rows: list[Row]) -> Table:
+    """Every recording on its own, with every metric."""
+    columns = (
+        Column("recording", "Recording"),
+        Column("scenario", "Scenario"),
+        Column("speed", "Speed (m/s)", ".2f"),
+        Column("trial", "Trial", "d"),
+        Column("method", "Method"),
+        *_METRICS.values(),
+    )
+    lines: list[dict[str, Value]] = [
+        {
+            "recording": row.source.name,
+            "scenario": row.scenario,
+            "speed": row.speed,
+            "trial": row.trial,
+            "method": row.parameters.method,
+            **{key: row.metrics.get(key) for key in COLUMNS},
+        }
+        for row in rows
+        if row.parameters.n == plan.parameters.n
+    ]
+    note = "One line per recording and method; means over all its points and pairs."
+    return Table("recordings", "Every recording", note, columns, tuple(lines))

@@ -1,0 +1,91 @@
+"""Tables for a paper: booktabs, in a float across both columns."""
+
+import unicodedata
+
+from app.study.table import UNDEFINED, Table, shown
+
+_SPECIAL = {
+    "\\": r"\textbackslash{}",
+    "{": r"\{",
+    "}": r"\}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': "''",
+    "[": "{[}",  # a row that begins with one would be an argument of the \\ before it
+    "]": "{]}",
+    "*": "{*}",
+    UNDEFINED: "--",
+    "γ": r"$\gamma$",
+    "δ": r"$\delta$",
+}
+_WIDE = 11  # columns, above which the smallest type is used
+
+
+def as_latex(table: Table, conditions: str) -> str:
+    r"""A `table*` that needs \usepackage{booktabs} alone, in ASCII.
+
+    Args:
+        table: what is shown.
+        conditions: a sentence that goes into the caption.
+    """
+    alignment = "".join("r" if column.form else "l" for column in table.columns)
+    body = [[shown(c, row[c.key]) for c in table.columns] for row in table.rows]
+    lines = [
+        r"% Needs \usepackage{booktabs}.",
+        r"\begin{table*}",
+        r"\centering",
+        rf"\caption{{{escaped(f'{table.title}. {table.note} {conditions}')}}}",
+        rf"\label{{tab:tofscope-{table.name.replace('_', '-')}}}",
+        r"\scriptsize" if len(table.columns) > _WIDE else r"\footnotesize",
+        r"\setlength{\tabcolsep}{3pt}",
+        rf"\begin{{tabular}}{{@{{}}{alignment}@{{}}}}",
+        r"\toprule",
+        *_group_lines(table),
+        _line([column.title for column in table.columns]),
+        r"\midrule",
+    ]
+    before = ""
+    for row in body:
+        first = row[0]
+        # A line between experiments, and each named once, as in the paper.
+        if before and first != before:
+            lines.append(r"\addlinespace")
+        lines.append(_line([first if first != before else "", *row[1:]]))
+        before = first
+    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", r"\end{table*}", ""])
+
+
+def _group_lines(table: Table) -> list[str]:
+    if not any(title for title, _ in table.groups):
+        return []
+    cells, rules, column = [], [], 1
+    for title, span in table.groups:
+        cells.append(rf"\multicolumn{{{span}}}{{c}}{{{escaped(title)}}}" if title else "")
+        if title:
+            rules.append(rf"\cmidrule(lr){{{column}-{column + span - 1}}}")
+        column += span
+    return [" & ".join(cells) + r" \\", " ".join(rules)]
+
+
+def _line(cells: list[str]) -> str:
+    return " & ".join(map(escaped, cells)) + r" \\"
+
+
+def escaped(text: str) -> str:
+    """Text that LaTeX shows as it is; what ASCII cannot say is said without accents, or as ?."""
+    return "".join(_SPECIAL.get(character) or _plain(character) for character in text)
+
+
+def _plain(character: str) -> str:
+    if character.isascii():
+        return character if character.isprintable() else " "
+    base = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
+    return base or "?"

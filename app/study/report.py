@@ -1,0 +1,197 @@
+"""The folder that a study leaves: the page to read first, tables, figure."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from app.errors import InputError
+from app.study import page
+from app.study.conditions import conditions, parameters_text, simulate_commands, simulator_texts
+from app.study.figure import sweep_figure
+from app.study.findings import findings
+from app.study.further_tables import (
+    ablation_table,
+    metrics_table,
+    recordings_table,
+    sweep_table,
+)
+from app.study.latex import as_latex
+from app.study.paper import paper_numbers
+from app.study.paper_tables import paper_tables
+from app.study.plan import Plan
+from app.study.progress import duration
+from app.study.rows import Row, rows_of
+from app.study.software import software_digest, versions
+from app.study.table import Table
+from app.study.text_files import as_csv, as_markdown
+from app.study.work import Outcome
+
+PAGE = "index.html"
+_TABLES = "tables"
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study that was run.
+
+    Attributes:
+        plan: what was asked.
+        outcomes: of every recording that was evaluated, in the plan's order.
+        failures: a sentence for each that was not.
+        command: that was typed.
+        seconds: that this run took on the clock.
+    """
+
+    plan: Plan
+    outcomes: Sequence[Outcome]
+    failures: Sequence[str]
+    command: str
+    seconds: float
+
+    def rows(self) -> list[Row]:
+        """Results of the tables and of the sweep."""
+        sources = set(self.plan.sources())
+        return rows_of(outcome for outcome in self.outcomes if outcome.source in sources)
+
+    def ablation_rows(self) -> list[Row]:
+        """Results of the ablation."""
+        sources = set(self.plan.ablation_sources())
+        rows = rows_of(outcome for outcome in self.outcomes if outcome.source in sources)
+        return [row for row in rows if row.parameters.n == self.plan.parameters.n]
+
+    def tables(self) -> list[Table]:
+        """All tables, the paper's first."""
+        plan, rows = self.plan, self.rows()
+        tables = [
+            *paper_tables(plan, rows),
+            metrics_table(plan, rows),
+            sweep_table(plan, rows),
+            ablation_table(plan, self.ablation_rows()),
+            recordings_table(plan, rows),
+        ]
+        return [table for table in tables if table]
+
+
+def write_report(study: Study, folder: Path) -> list[Table]:
+    """Write every file but the store's, and return the tables.
+
+    Raises:
+        InputError: a file cannot be written.
+    """
+    tables, figure = study.tables(), sweep_figure(study.plan, study.rows())
+    said = conditions(study.plan)
+    files: dict[str, bytes] = {}
+    for table in tables:
+        files |= {
+            f"{_TABLES}/{table.name}.csv": as_csv(table).encode(),
+            f"{_TABLES}/{table.name}.md": as_markdown(table, said).encode(),
+            f"{_TABLES}/{table.name}.tex": as_latex(table, said).encode(),
+        }
+    files[f"{_TABLES}/tables.json"] = (
+        json.dumps(_as_json(study, tables), indent=1) + "\n"
+    ).encode()
+    files |= {f"sweep.{ending}": content for ending, content in (figure or {}).items()}
+    files[PAGE] = _page(study, tables, figure).encode()
+    try:
+        (folder / _TABLES).mkdir(parents=True, exist_ok=True)
+        for name, content in files.items():
+            (folder / name).write_bytes(content)
+    except OSError as error:
+        raise InputError(f"{error.filename} cannot be written: {error.strerror}.") from error
+    return tables
+
+
+def _as_json(study: Study, tables: Sequence[Table]) -> dict[str, Any]:
+    """All that decides the tables, and the tables; nothing that differs from run to run."""
+    plan = study.plan
+    return {
+        "simulated": plan.recordings is None,
+        "methods": plan.methods,
+        "parameters": {k: v for k, v in asdict(plan.parameters).items() if k != "method"},
+        "seed": plan.seed if plan.recordings is None else None,
+        "noise": plan.noise if plan.recordings is None else None,
+        "imperfections": plan.imperfections if plan.recordings is None else None,
+        "versions": versions(),
+        "software": software_digest(),
+        "paper": paper_numbers().source,
+        "tables": {table.name: table.rows for table in tables},
+        "not_evaluated": list(study.failures),
+    }
+
+
+def _page(study: Study, tables: Sequence[Table], figure: dict[str, bytes] | None) -> str:
+    plan = study.plan
+    sections = [_first(study)]
+    found = findings(plan, study.rows())
+    sections.append(page.Section("What the numbers say beside the paper's", [page.items(found)]))
+    for table in tables:
+        shown = page.table(table)
+        if table.name == "recordings" and plan.recordings is None:
+            shown = page.folded(f"{len(table.rows)} lines", shown)
+        blocks = [shown, page.links([f"{_TABLES}/{table.name}.{e}" for e in ("csv", "md", "tex")])]
+        if table.name == "sweep" and figure:
+            picture = page.picture(figure["png"], "Error over n, a line for each speed")
+            blocks = [picture, page.links(["sweep.png", "sweep.pdf"]), *blocks]
+        sections.append(page.Section(table.title, blocks))
+    sections.append(_last(study))
+    return page.page("The scene-flow study", sections)
+
+
+def _first(study: Study) -> page.Section:
+    plan = study.plan
+    blocks: list[str] = []
+    if plan.recordings is None:
+        blocks.append(
+            page.paragraph(
+                "Everything here is simulated: the paper's recordings are not public. These are "
+                f"{len(plan.sources())} recordings of its experiments, made by ray casting, with "
+                "a rig whose dimensions are ours, and the paper's own numbers beside them.",
+                "simulated",
+            )
+        )
+        blocks.append(page.items(simulator_texts(plan)))
+    else:
+        blocks.append(page.paragraph(f"{len(plan.sources())} recordings that were given."))
+    if study.failures:
+        blocks.append(page.paragraph("Not evaluated:"))
+        blocks.append(page.items(list(study.failures)))
+    warnings = [f"{o.source.name}: {w}" for o in study.outcomes for w in o.warnings]
+    if warnings:
+        blocks.append(page.folded(f"{len(warnings)} warnings", page.items(warnings)))
+    return page.Section("What this is", blocks)
+
+
+def _last(study: Study) -> page.Section:
+    plan = study.plan
+    making = sum(o.seconds for o in study.outcomes)
+    estimating = sum(r.seconds for o in study.outcomes for r in o.results)
+    frames = sum(o.frames for o in study.outcomes)
+    pairs = sum(int((r.metrics or {}).get("pairs") or 0) for o in study.outcomes for r in o.results)
+    blocks = [
+        page.command(study.command),
+        page.terms(
+            {
+                "Methods": ", ".join(plan.methods),
+                "Parameters": parameters_text(plan),
+                "Work": f"{len(study.outcomes)} recordings of {frames} frames in all; {pairs} "
+                "estimates of pairs that count.",
+                "Duration": f"{duration(making)} of one core to "
+                f"{'simulate' if plan.recordings is None else 'open'} and "
+                f"{duration(estimating)} to estimate; this run took {duration(study.seconds)} on "
+                "the clock, results that were there before left out.",
+                "Versions": ", ".join(f"{name} {number}" for name, number in versions().items()),
+                "Software": f"digest {software_digest()[:16]}",
+                "Paper": paper_numbers().source,
+            }
+        ),
+    ]
+    if plan.recordings is None:
+        blocks.append(page.paragraph("The recordings, as files, are made by"))
+        blocks += [page.command(text) for text in simulate_commands(plan)]
+        again = "tofscope study --recordings recordings --out FOLDER"
+        blocks.append(page.paragraph("and evaluated, with the parameters above, by"))
+        blocks.append(page.command(again))
+    blocks.append(page.links([f"{_TABLES}/tables.json"]))
+    return page.Section("How to make it again", blocks)
