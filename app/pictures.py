@@ -8,28 +8,33 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 from PIL.PngImagePlugin import PngInfo
 
+from app.colours import Colour
 from app.palettes import blend
 from app.scene.legend import Legend
 
 _TEXT = 1 / 52  # height of the legend's text by the height of the picture
+_DARK_INK, _LIGHT_INK = (38, 40, 44, 255), (230, 231, 234, 255)
 
 
-def finished(pixels: NDArray[np.uint8], *, transparent: bool, legend: Legend | None) -> Image.Image:
+def finished(
+    pixels: NDArray[np.uint8], background: Colour | None, legend: Legend | None
+) -> Image.Image:
     """A rendered image with its background and legend.
 
     Args:
         pixels: (H, W, 4), transparent where nothing is.
-        transparent: whether it stays so; else it becomes white.
+        background: of the picture, None where it is to stay transparent.
         legend: is drawn in the lower left corner, None for none.
     """
     picture = Image.fromarray(pixels).convert("RGBA")
-    if not transparent:
-        white = Image.new("RGBA", picture.size, "white")
-        white.alpha_composite(picture)
-        picture = white
+    if background is not None:
+        ground = Image.new("RGBA", picture.size, background)
+        ground.alpha_composite(picture)
+        picture = ground
     if legend is not None:
-        _draw_legend(picture, legend)
-    return picture if transparent else picture.convert("RGB")
+        dark = legend.dark if background is None else sum(background) < 3 * 128
+        _draw_legend(picture, legend, _LIGHT_INK if dark else _DARK_INK)
+    return picture if background is None else picture.convert("RGB")
 
 
 def side_by_side(pictures: Sequence[Image.Image]) -> Image.Image:
@@ -54,12 +59,11 @@ def png(picture: Image.Image, said: Mapping[str, str]) -> bytes:
     return data.getvalue()
 
 
-def _draw_legend(picture: Image.Image, legend: Legend) -> None:
+def _draw_legend(picture: Image.Image, legend: Legend, ink: tuple[int, int, int, int]) -> None:
     size = max(9, round(_TEXT * picture.height))
     font, draw = ImageFont.load_default(size), ImageDraw.Draw(picture)
     line, left, dot = round(1.5 * size), size, round(0.7 * size)
     top = picture.height - size - line * (len(legend.marks) + (legend.ramp is not None))
-    ink = (38, 40, 44, 255)
     for mark in legend.marks:
         middle = top + line / 2
         box = (left, middle - dot / 2, left + dot, middle + dot / 2)

@@ -13,8 +13,11 @@ from estimator import Parameters
 
 if TYPE_CHECKING:
     from app.library import Opened
+    from app.scene.settings import ViewSettings
 
-_VIEWS = ("3d", "top", "front", "robot")
+_VIEWS = ("3d", "top", "front", "robot", "fit")
+_COLOURS = ("paper", "colour-blind")
+_ARROWS = ("one", "speed", "direction", "cluster")
 _SIDE = (16, 7680)  # pixels
 
 
@@ -36,8 +39,26 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--view",
         choices=_VIEWS,
-        default="3d",
-        help="where the camera stands: at a slant, above, before the robot, on its skin",
+        nargs="+",
+        default=["3d"],
+        help=(
+            "where the camera stands: at a slant, above, before the robot, on its skin, or far "
+            "enough to see everything; several stand side by side in a picture, such as 3d top "
+            "(default 3d)"
+        ),
+    )
+    parser.add_argument("--dark", action="store_true", help="draw on black (default: on white)")
+    parser.add_argument(
+        "--colours",
+        choices=_COLOURS,
+        default=_COLOURS[0],
+        help="as in the paper, or such that colour-blind readers can tell them apart",
+    )
+    parser.add_argument(
+        "--arrows",
+        choices=_ARROWS,
+        default=_ARROWS[0],
+        help="what the colours of the arrows say (default: nothing, all have one)",
     )
     picture = parser.add_argument_group("a picture")
     picture.add_argument(
@@ -47,11 +68,9 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
         "--size",
         type=_size,
         metavar="WIDTHxHEIGHT",
-        help="in pixels (default 1600x900)",
+        help="of a view, in pixels (default 1600x900)",
     )
-    picture.add_argument(
-        "--transparent", action="store_true", help="no background (default: a white one)"
-    )
+    picture.add_argument("--transparent", action="store_true", help="no background")
     picture.add_argument(
         "--legend", action="store_true", help="say in the picture what the colours mean"
     )
@@ -90,7 +109,6 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     from app.estimates import Estimates
     from app.exports.picture import Framing, picture
     from app.opening import telling_frame
-    from app.scene.settings import ViewSettings
 
     estimates, frame = Estimates(), options.frame
     if frame is None:
@@ -98,16 +116,19 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     _check_frame(opened, frame)
     width, height = options.size or (1600, 900)
     pair = estimates.estimated(opened, frame, parameters)
-    framing = Framing(width, height, _view(options), options.transparent, options.legend)
-    content = picture(opened, pair, parameters, ViewSettings(), framing)
+    views = _views(options)
+    framing = Framing(width, height, views, options.transparent, options.legend)
+    content = picture(opened, pair, parameters, _settings(options), framing)
     _write(options.screenshot, content)
-    print(f"{options.screenshot}: frame {frame} of {opened.recording.name}, {width} x {height}.")
+    print(
+        f"{options.screenshot}: frame {frame} of {opened.recording.name}, "
+        f"{width * len(views)} x {height}."
+    )
 
 
 def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
     from app.estimates import Estimates
     from app.exports.offline_page import offline_page
-    from app.scene.settings import ViewSettings
 
     first, last = options.frames or (None, None)
     first = 0 if first is None else first
@@ -121,8 +142,8 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
         opened,
         frames,
         parameters,
-        ViewSettings(),
-        _view(options),
+        _settings(options),
+        _views(options)[0],
         Estimates(),
         lambda _: None,
     )
@@ -134,14 +155,28 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
     )
 
 
-def _view(options: argparse.Namespace) -> str:
+def _views(options: argparse.Namespace) -> tuple[str, ...]:
     from app.scene.views import VIEWS
 
-    return next(view for view in VIEWS if view.lower() == options.view)
+    names = {view.lower(): view for view in VIEWS}
+    return tuple(names[view] for view in options.view)
+
+
+def _settings(options: argparse.Namespace) -> "ViewSettings":
+    from app.palettes import PALETTES
+    from app.scene.settings import ARROW_COLOURS, ViewSettings
+
+    return ViewSettings(
+        colours=dict(zip(_COLOURS, PALETTES, strict=True))[options.colours],
+        arrow_colours=dict(zip(_ARROWS, ARROW_COLOURS, strict=True))[options.arrows],
+        dark=options.dark,
+    )
 
 
 def _check_flags(options: argparse.Namespace) -> None:
     """Raise InputError for a flag that has no meaning beside what is made."""
+    if options.html and len(options.view) > 1:
+        raise InputError(f"An offline page has one view, got {len(options.view)}: --view 3d.")
     made, others = (
         ("--screenshot", ("frames",))
         if options.screenshot

@@ -11,6 +11,7 @@ from app.errors import InputError
 from app.estimates import Estimates
 from app.guarded_server import GuardedServer
 from app.library import Opened
+from app.places import Camera
 from app.scene.scene import Scene
 from app.scene.settings import ONE_COLOUR, ViewSettings
 from app.theme import dress
@@ -45,7 +46,7 @@ def offline_page(
     frames: Sequence[int],
     parameters: Parameters,
     settings: ViewSettings,
-    view: str,
+    stand: str | Camera,
     estimates: Estimates,
     progress: Callable[[int], None],
 ) -> str:
@@ -56,7 +57,7 @@ def offline_page(
         frames: k of each frame, increasing; at least one.
         parameters: of the estimate.
         settings: of the drawing.
-        view: where the camera stands at first, one of `VIEWS`.
+        stand: where the camera stands at first, or one of `VIEWS`.
         estimates: computes and remembers.
         progress: is told how many frames are drawn.
 
@@ -80,7 +81,10 @@ def offline_page(
         scene.change(settings)
         first = estimates.estimated_ahead(opened, frames[0], parameters)
         scene.show(first)
-        scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), view)
+        if isinstance(stand, Camera):
+            scene.stand(stand)
+        else:
+            scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), stand)
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)

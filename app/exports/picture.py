@@ -8,13 +8,14 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from app import theme
 from app.captions import caption
 from app.errors import InputError
 from app.estimates import Pair
 from app.exports.chromium import hidden_page
 from app.guarded_server import GuardedServer
 from app.library import Opened
-from app.pictures import finished, png
+from app.pictures import finished, png, side_by_side
 from app.scene.photograph import photograph
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
@@ -28,16 +29,16 @@ class Framing:
     """What a picture takes in.
 
     Attributes:
-        width: pixels.
+        width: pixels of each view.
         height: pixels.
-        view: where the camera stands, one of `VIEWS`.
-        transparent: whether the background is, and not white.
+        views: where the camera stands, of `VIEWS`; they stand side by side.
+        transparent: whether there is no background.
         legend: whether it says what the colours mean.
     """
 
     width: int
     height: int
-    view: str
+    views: tuple[str, ...]
     transparent: bool = False
     legend: bool = False
 
@@ -78,24 +79,28 @@ def picture(
                 scene.open(opened.recording)
                 scene.change(settings)
                 scene.show(pair)
-                scene.place_camera(pair, framing.view, framing.width / framing.height)
-            pixels = _settled(client, scene, pair, framing)
+                scene.place_camera(pair, framing.views[0], framing.width / framing.height)
+            taken = [_settled(client, scene, pair, view, framing) for view in framing.views]
             legend = scene.legend if framing.legend else None
     finally:
         server.stop()
-    image = finished(pixels, transparent=framing.transparent, legend=legend)
-    return png(image, caption(opened.recording, parameters, pair.frame))
+    background = None if framing.transparent else theme.background(settings.dark)
+    legends = [legend] + [None] * len(taken)
+    pictures = [
+        finished(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
+    ]
+    return png(side_by_side(pictures), caption(opened.recording, parameters, pair.frame))
 
 
 def _settled(
-    client: viser.ClientHandle, scene: Scene, pair: Pair, framing: Framing
+    client: viser.ClientHandle, scene: Scene, pair: Pair, view: str, framing: Framing
 ) -> NDArray[np.uint8]:
     """The picture (H, W, 4), once it does not change any more."""
     end = time.monotonic() + _TIMEOUT
     before: NDArray[np.uint8] | None = None
     while time.monotonic() < end:
         try:
-            pixels = photograph(client, scene, pair, framing.view, framing.width, framing.height)
+            pixels = photograph(client, scene, pair, view, framing.width, framing.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(f"Chromium gave no picture ({error}).") from error
         if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):

@@ -14,10 +14,9 @@ from app.exports.offline_page import ExportEndedError, offline_page
 from app.file_names import safe
 from app.library import Opened
 from app.panel import Desk, Panel
-from app.scene.settings import ViewSettings
+from app.places import Place
 from app.scene.views import THREE_D
 from app.wishes import LatestWins
-from estimator import Parameters
 
 if TYPE_CHECKING:
     from app.workbench import Workbench
@@ -35,10 +34,9 @@ class SaveOfflinePage(LatestWins):
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Begin to make it, where there is a recording; InputError where one is being made."""
-        if workbench.opened is not None:
-            self.panel.begin(
-                workbench.opened, workbench.parameters, workbench.settings, workbench.estimates
-            )
+        place = workbench.place()
+        if workbench.opened is not None and place is not None:
+            self.panel.begin(workbench.opened, place, workbench.estimates)
 
 
 class OfflinePagePanel(Panel):
@@ -59,10 +57,8 @@ class OfflinePagePanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             desk.post(SaveOfflinePage(self))
 
-    def begin(
-        self, opened: Opened, parameters: Parameters, settings: ViewSettings, estimates: Estimates
-    ) -> None:
-        """Make the page of a recording in a thread of its own.
+    def begin(self, opened: Opened, place: Place, estimates: Estimates) -> None:
+        """Make the page of a recording in a thread of its own, as it is seen from a place.
 
         Raises:
             InputError: one is being made already.
@@ -72,7 +68,7 @@ class OfflinePagePanel(Panel):
         self._ended.clear()
         self._thread = threading.Thread(
             target=self._make,
-            args=(opened, parameters, settings, estimates),
+            args=(opened, place, estimates),
             name="offline page",
             daemon=True,
         )
@@ -84,9 +80,7 @@ class OfflinePagePanel(Panel):
         if self._thread is not None:
             self._thread.join(timeout=10.0)
 
-    def _make(
-        self, opened: Opened, parameters: Parameters, settings: ViewSettings, estimates: Estimates
-    ) -> None:
+    def _make(self, opened: Opened, place: Place, estimates: Estimates) -> None:
         frames = range(len(opened.recording))
         said = self._client.add_notification(
             _TITLE, f"Drawing {len(frames)} frames.", loading=True, with_close_button=False
@@ -103,7 +97,15 @@ class OfflinePagePanel(Panel):
                 said.body = f"Frame {index} of {len(frames) - 1}."
 
         try:
-            page = offline_page(opened, frames, parameters, settings, THREE_D, estimates, progress)
+            page = offline_page(
+                opened,
+                frames,
+                place.parameters,
+                place.settings,
+                place.camera or THREE_D,
+                estimates,
+                progress,
+            )
         except ExportEndedError:
             return
         except UserError as error:

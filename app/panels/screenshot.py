@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import viser
 
+from app import theme
 from app.captions import caption
 from app.errors import InputError
 from app.file_names import safe
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 _AS_SHOWN = "As on the screen"
 _SIZES = {"1280 x 720": (1280, 720), "1600 x 900": (1600, 900), "1920 x 1080": (1920, 1080)}
 _SCALES = {"1x": 1, "2x": 2, "3x": 3}
-_BACKGROUNDS = ("White", "Transparent")
+_WHITE, _TRANSPARENT = "White", "Transparent"
+_BACKGROUNDS = (_AS_SHOWN, _WHITE, _TRANSPARENT)
 
 
 @dataclass(frozen=True)
@@ -30,14 +32,14 @@ class TakeScreenshot(LatestWins):
         views: their names; None is what the page shows.
         size: width and height of each in pixels; None is that of the scene on the screen.
         scale: what both are multiplied with.
-        transparent: whether there is no background.
+        background: what is behind the scene, one of `_BACKGROUNDS`.
         legend: whether a legend is drawn.
     """
 
     views: tuple[str | None, ...]
     size: tuple[int, int] | None
     scale: int
-    transparent: bool
+    background: str
     legend: bool
 
     def fulfil(self, workbench: "Workbench") -> None:
@@ -58,9 +60,13 @@ class TakeScreenshot(LatestWins):
                 "The browser gave no picture; bring its tab to the front and try again, "
                 "or choose a smaller size."
             ) from error
+        background = {
+            _WHITE: (255, 255, 255),
+            _TRANSPARENT: None,
+        }.get(self.background, theme.background(workbench.settings.dark))
         legends = [workbench.legend if self.legend else None] + [None] * len(taken)
         pictures = [
-            finished(pixels, transparent=self.transparent, legend=legend)
+            finished(pixels, background, legend)
             for pixels, legend in zip(taken, legends, strict=False)
         ]
         recording = workbench.opened.recording
@@ -98,7 +104,7 @@ class ScreenshotPanel(Panel):
                     views,
                     _SIZES.get(size.value),
                     _SCALES.get(scale.value, 1),
-                    background.value == "Transparent",
+                    background.value,
                     legend.value,
                 )
             )

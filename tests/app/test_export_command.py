@@ -37,6 +37,7 @@ def room(tmp_path):
         (["--html", "a.html", "--frames", "2:1"], 1, "must not be before the first; got 2:1"),
         (["--html", "a.html", "--frame", "1"], 1, "--frame has no meaning beside --html"),
         (["--screenshot", "a.png", "--frames", "1:2"], 1, "--frames has no meaning beside"),
+        (["--html", "a.html", "--view", "3d", "top"], 1, "An offline page has one view, got 2"),
         (["--screenshot", "no/a.png"], 1, "no/a.png cannot be written: there is no folder"),
         (["--html", "."], 1, ". cannot be written: it is a folder"),
         (["--html", "a.html", "--gamma", "7"], 1, "gamma must be between 0 and 1, got 7"),

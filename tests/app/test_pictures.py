@@ -6,6 +6,8 @@ from PIL import Image
 from app.pictures import finished, png, side_by_side
 from app.scene.legend import Legend, Mark, Ramp
 
+WHITE = (255, 255, 255)
+
 
 def pixels(height=200, width=300):
     """Red to the left, nothing to the right."""
@@ -15,11 +17,11 @@ def pixels(height=200, width=300):
 
 
 def test_a_transparent_background_becomes_white_or_stays():
-    white = np.asarray(finished(pixels(), transparent=False, legend=None))
+    white = np.asarray(finished(pixels(), WHITE, None))
     assert white.shape == (200, 300, 3)
     assert (white[:, :150] == [200, 30, 40]).all()
     assert (white[:, 150:] == 255).all()
-    clear = np.asarray(finished(pixels(), transparent=True, legend=None))
+    clear = np.asarray(finished(pixels(), None, None))
     assert (clear[:, 150:, 3] == 0).all()
 
 
@@ -28,7 +30,7 @@ def test_the_legend_is_drawn_in_its_colours_in_the_lower_left_corner():
     legend = Legend(
         (Mark((10, 20, 250), "Target"),), Ramp(((0, 0, 0), (0, 240, 0)), "Flow: 0", "0.5 m/s")
     )
-    drawn = np.asarray(finished(nothing, transparent=False, legend=legend))
+    drawn = np.asarray(finished(nothing, WHITE, legend))
     assert (drawn[:320] == 255).all()
     assert (drawn[:, 400:] == 255).all()
     rows, columns = np.nonzero((drawn == [10, 20, 250]).all(axis=2))
@@ -39,8 +41,22 @@ def test_the_legend_is_drawn_in_its_colours_in_the_lower_left_corner():
     assert greens.max() == 240
 
 
+def test_the_legends_letters_can_be_read_on_every_background():
+    nothing = np.zeros((400, 600, 4), dtype=np.uint8)
+
+    def letters(background, dark):
+        legend = Legend((Mark((10, 20, 250), "Target"),), dark=dark)
+        drawn = np.asarray(finished(nothing, background, legend)).astype(int)
+        return drawn[320:, 30:200, :3]
+
+    assert letters((20, 20, 20), dark=False).max() > 200
+    assert letters(WHITE, dark=True).min() < 60
+    assert letters(None, dark=True).max() > 200
+    assert letters(None, dark=False).max() < 60
+
+
 def test_the_file_says_what_it_shows():
-    picture = finished(pixels(), transparent=False, legend=None)
+    picture = finished(pixels(), WHITE, None)
     said = {"Recording": "towards", "Parameters": '{"gamma": 0.7}', "Frame": "γ 24"}
     read = Image.open(io.BytesIO(png(picture, said)))
     assert read.size == (300, 200)
@@ -48,8 +64,8 @@ def test_the_file_says_what_it_shows():
 
 
 def test_two_views_stand_side_by_side():
-    left = finished(pixels(), transparent=False, legend=None)
-    right = finished(np.zeros((200, 100, 4), dtype=np.uint8), transparent=False, legend=None)
+    left = finished(pixels(), WHITE, None)
+    right = finished(np.zeros((200, 100, 4), dtype=np.uint8), WHITE, None)
     both = np.asarray(side_by_side([left, right]))
     assert both.shape == (200, 400, 3)
     assert (both[:, :150] == [200, 30, 40]).all()

@@ -121,6 +121,18 @@ def test_a_transparent_picture_from_above(sample: Path, tmp_path: Path):
     assert 0.005 < opaque.mean() < 0.7
 
 
+def test_two_views_in_the_dark_stand_side_by_side(sample: Path, tmp_path: Path):
+    place = tmp_path / "both.png"
+    flags = ["--size=320x180", "--dark", "--legend", "--colours=colour-blind", "--arrows=speed"]
+    said = export(sample, *flags, "--screenshot", place, "--view", "3d", "top")
+    assert said.endswith("640 x 180.\n")
+    with Image.open(place) as picture:
+        assert (picture.mode, picture.size) == ("RGB", (640, 180))
+        pixels = np.asarray(picture)
+    assert np.median(pixels) == 20
+    assert not np.array_equal(pixels[:, :320], pixels[:, 320:])
+
+
 def test_the_app_makes_an_offline_page_while_the_session_goes_on(tab: Tab):
     frame = tab.value("Frame")
     with tab.page.expect_download(timeout=90_000) as download:

@@ -7,6 +7,7 @@ from app.errors import InputError
 from app.estimates import Estimates
 from app.exports.offline_page import MOST_FRAMES, ExportEndedError, offline_page
 from app.guarded_server import GuardedServer
+from app.places import Camera
 from app.scene.settings import ViewSettings
 from app.scene.views import THREE_D
 from estimator import Parameters
@@ -67,3 +68,13 @@ def test_it_can_be_ended_and_gives_back_its_server(monkeypatch):
 def test_too_many_frames_are_refused_before_anything_is_drawn():
     with pytest.raises(InputError, match="too many for one page, which holds 3000"):
         page(fake_opened(), range(MOST_FRAMES + 1), lambda _: pytest.fail("drawn"))
+
+
+def test_it_is_seen_from_where_it_is_told(monkeypatch):
+    placed = []
+    monkeypatch.setattr("app.scene.scene.Scene.stand", lambda _, camera: placed.append(camera))
+    camera = Camera((3.0, 2.0, 1.0), (0.0, 0.0, 0.5), 0.6)
+    offline_page(
+        fake_opened(), [6], Parameters(), ViewSettings(), camera, Estimates(), lambda _: None
+    )
+    assert placed == [camera]

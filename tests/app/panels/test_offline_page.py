@@ -5,7 +5,7 @@ import pytest
 from app.errors import InputError
 from app.estimates import Estimates
 from app.panels.offline_page import OfflinePagePanel
-from app.scene.settings import ViewSettings
+from app.places import Place
 from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_recordings import fake_opened, fake_recording
@@ -14,7 +14,7 @@ from tests.app.waiting import until
 
 
 def begin(panel: OfflinePagePanel, opened) -> None:
-    panel.begin(opened, Parameters(), ViewSettings(), Estimates())
+    panel.begin(opened, Place("a", 0, Parameters()), Estimates())
 
 
 def test_the_page_arrives_when_it_is_ready(client):

@@ -28,7 +28,7 @@ def test_all_numbers_of_a_pair():
         "Unassigned": "0",
         "Clusters": "5",
         "Interval": "0.533 s",
-        "Estimate": "61 ms",
+        "Estimate": "61.4 ms",
         "Truth": "0.150 m/s",
     }
     assert note_on(pair, Parameters()) == ""
