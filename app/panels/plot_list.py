@@ -194,7 +194,10 @@ def summary(survey: Survey | None, *, has_truth: bool) -> str:
 def _means(survey: Survey) -> str:
     metrics = survey.summary()
     if metrics.pairs == 0:
-        return "No pair counts: the object must move at both of its frames."
+        said = "No pair counts: the object must move at both of its frames."
+        flagged = format(100 * metrics.false_flow, ".2f")
+        known = not math.isnan(metrics.false_flow)
+        return f"{said} Of the points at rest {flagged} % got a flow." if known else said
     cells = []
     for name, title in _MEANS.items():
         value = getattr(metrics, name)

@@ -13,6 +13,7 @@ from app.panels.plots import PlotsPanel, SavePlots, SeekTime, ShowSurvey
 from app.scene.settings import ViewSettings
 from app.survey import Survey
 from estimator import Parameters
+from recordings import PairTruth
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
 from tests.app.fake_session import desk, shown
 from tests.app.test_survey import filled
@@ -153,6 +154,14 @@ def test_a_recording_none_of_whose_pairs_counts_says_so():
     fake.truth = lambda _: np.zeros(3)
     said = summary(filled(fake_opened(fake), Parameters()), has_truth=True)
     assert "No pair counts" in said
+    assert "Of the points at rest 0.00 % got a flow." in said
+
+    size = len(fake.cloud(0).points)
+    fake.pair_truth = lambda *_: PairTruth(np.zeros((size, 3)), np.zeros((size, 3)))
+    said = summary(filled(fake_opened(fake), Parameters()), has_truth=True)
+    assert "Of the points at rest 20.00 % got a flow." in said
+    fake.pair_truth = lambda *_: PairTruth(np.zeros((size, 3)), None)
+    assert "at rest" not in summary(filled(fake_opened(fake), Parameters()), has_truth=True)
 
 
 def test_while_it_is_filled_it_says_how_far_it_is():
