@@ -1,6 +1,6 @@
 """What a recording holds of one instant, before it is written."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,11 +33,15 @@ class Frame:
 
     Attributes:
         stamp: seconds.
-        ranges: (S, rows, columns) metres as the sensors report them, NaN where invalid.
+        ranges: (S, rows, columns) metres as the sensors report them, NaN where they report none.
         joint_positions: {the robot's joint: rad or m}.
         T_base_target: (4, 4) pose of the moving object's frame.
         target_velocity: (3,) m/s of the moving object.
         truth: of every valid reading.
+        target_turn_rate: (3,) rad/s of the moving object.
+        object_poses: {number in the truth: T_base_object (4, 4)} of objects whose pose is known,
+            the moving object among them.
+        status: (S, rows, columns) ST's target status of each range; None where all count.
     """
 
     stamp: float
@@ -46,6 +50,9 @@ class Frame:
     T_base_target: NDArray[np.float64]
     target_velocity: NDArray[np.float64]
     truth: PointTruth
+    target_turn_rate: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
+    object_poses: dict[int, NDArray[np.float64]] = field(default_factory=dict)
+    status: NDArray[np.uint8] | None = None
 
 
 @dataclass(frozen=True)

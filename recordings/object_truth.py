@@ -9,7 +9,11 @@ from recordings.frame_table import FrameTable
 from recordings.point_truth import PointTruths
 from recordings.tracks import Stamps, pose_track, vector_track
 from recordings.transforms import TransformTree
-from recordings.truth import ObjectTruth, RigidTruth, TwistTruth
+from recordings.truth import ObjectTruth, RigidTruth, TurningTruth, TwistTruth
+
+OBJECT_FRAME = "object_"
+"""With its number in the truth of points behind it, the frame of an object in /tf."""
+_TURNING = 1e-3  # rad/s
 
 
 def object_truth(
@@ -50,6 +54,8 @@ def object_truth(
             if topic.use is use:
                 truth, said = read(topic, decoder, stamps, tree, fixed_frame)
                 warnings += said
+                if isinstance(truth, TwistTruth) and _turns(topic, decoder):
+                    truth = _turning(truth, topics, decoder, stamps, tree, fixed_frame)
                 if truth is not None:
                     if not named_truth(topic.name):
                         what = use.removeprefix("truth: ")
@@ -71,7 +77,16 @@ def point_truths(
     tree: TransformTree,
     fixed_frame: str,
 ) -> tuple[PointTruths | None, list[str]]:
-    """Find the truth of every point, None where there is none in the fixed frame itself."""
+    """Find the truth of every point, None where there is none in the fixed frame itself.
+
+    The frame `object_3` of /tf is taken as the pose of the object 3 of that truth.
+    """
+    numbers = {f: f.removeprefix(OBJECT_FRAME) for f in tree.frames if f.startswith(OBJECT_FRAME)}
+    poses = {
+        int(number): tree.over(fixed_frame, frame, len(table.stamps))
+        for frame, number in numbers.items()
+        if number.isdecimal() and tree.connected(fixed_frame, frame)
+    }
     topic = next((topic for topic in topics if topic.use is Use.POINTS), None)
     if topic is None:
         return None, []
@@ -80,7 +95,30 @@ def point_truths(
             f"The truth of points is given in {topic.frame} and not in {fixed_frame}; "
             f"it is not used."
         ]
-    return PointTruths(topic, decoder, table.stamps, 0.5 * table.period), []
+    return PointTruths(topic, decoder, table.stamps, 0.5 * table.period, poses), []
+
+
+def _turns(topic: Topic, decoder: Decoder) -> bool:
+    """Whether a twist says at any time that the object turns."""
+    rates = (message.twist.angular for message in decoder.messages(topic.channel))
+    return any(max(abs(rate.x), abs(rate.y), abs(rate.z)) > _TURNING for rate in rates)
+
+
+def _turning(
+    twist: TwistTruth,
+    topics: list[Topic],
+    decoder: Decoder,
+    stamps: Stamps,
+    tree: TransformTree,
+    fixed_frame: str,
+) -> ObjectTruth:
+    """The truth of an object that turns: by its pose, too, where that is recorded."""
+    for topic in topics:
+        if topic.use is Use.POSE:
+            rigid, _ = _by_pose(topic, decoder, stamps, tree, fixed_frame)
+            if isinstance(rigid, RigidTruth):
+                return TurningTruth(twist, rigid)
+    return twist
 
 
 def _by_twist(

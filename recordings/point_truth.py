@@ -1,7 +1,9 @@
 """The truth of every point, where a recording has it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,8 @@ from recordings.contents import Topic
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.tracks import Stamps
+from recordings.transforms import Transform, inverse
+from recordings.twists import Twist, fitted_twist
 
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _REAL = ("x", "y", "z", "vx", "vy", "vz")
@@ -23,7 +27,9 @@ _CACHED_FRAMES = 64
 @dataclass(frozen=True)
 class _FrameTruth:
     table: dict[str, NDArray[Any]]
-    mean_velocity: dict[int, NDArray[np.float64]]
+    points: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    twists: dict[int, Twist]
 
 
 class PointTruths:
@@ -34,11 +40,20 @@ class PointTruths:
         decoder: of the file.
         stamps: (K,) nanoseconds of the frames.
         tolerance: how far a message's stamp may be from a frame's, nanoseconds.
+        poses: {object: its pose (K, 4, 4) at the frames, NaN where unknown} where it is recorded.
     """
 
-    def __init__(self, topic: Topic, decoder: Decoder, stamps: Stamps, tolerance: float) -> None:
-        self._topic, self._decoder = topic, decoder
+    def __init__(
+        self,
+        topic: Topic,
+        decoder: Decoder,
+        stamps: Stamps,
+        tolerance: float,
+        poses: Mapping[int, NDArray[np.float64]],
+    ) -> None:
+        self._topic, self._decoder, self._poses = topic, decoder, poses
         self._message = _nearest(decoder.header_stamps(topic.channel), stamps, tolerance)
+        self._seconds = (stamps - stamps[0]) * 1e-9
         self._frame = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
 
     def at(self, k: int, cloud: Cloud) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
@@ -50,46 +65,83 @@ class PointTruths:
         if frame is None:
             return None
         row = _rows(frame.table, cloud)
-        velocity = np.stack([frame.table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
         known = row >= 0
         values = np.full((len(row), 3), np.nan)
         objects = np.full(len(row), -1, dtype=np.int64)
-        values[known] = velocity[row[known]]
+        values[known] = frame.velocity[row[known]]
         objects[known] = frame.table["object"][row[known]]
         return values, objects
 
     def over(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s of each point of the source cloud until the target frame.
 
-        A point keeps its velocity relative to its object, whose mean velocity is followed from
-        frame to frame: exact for objects in translation.
+        A point follows its object rigidly, rotation included: by the object's poses where they are
+        recorded. Without them a rigid motion is fitted to the velocities of its points at every
+        frame, and followed: exact while the motion is constant; where the points are too few to
+        tell a rotation, it is a translation at their mean velocity. What differs from the fit at
+        the source frame, differs all the time.
         """
+        frame = self._frame(source_k)
+        start = self.at(source_k, cloud)
+        if frame is None or start is None:
+            return None
+        row = _rows(frame.table, cloud)
+        velocity, objects = start
+        seconds = self._seconds[target_k] - self._seconds[source_k]
+        for number in np.unique(objects[objects >= 0]).tolist():
+            mine = objects == number
+            points = frame.points[row[mine]]
+            motion = self._pose_change(number, source_k, target_k)
+            if motion is not None:
+                own = np.zeros(3)
+            else:
+                motion = self._followed(number, source_k, target_k)
+                own = velocity[mine] - frame.twists[number].velocity(points)
+            carried = points @ motion[:3, :3].T + motion[:3, 3]
+            velocity[mine] = (carried - points) / seconds + own
+        return velocity
+
+    def posed(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.bool_]:
+        """Which points (N,) of the source cloud are of an object whose poses are recorded."""
         start = self.at(source_k, cloud)
         if start is None:
+            return np.zeros(len(cloud.points), dtype=bool)
+        known = [n for n in self._poses if self._pose_change(n, source_k, target_k) is not None]
+        return np.isin(start[1], known)
+
+    def _pose_change(self, number: int, source_k: int, target_k: int) -> Transform | None:
+        """What takes points of an object at the source to where they are at the target frame."""
+        poses = self._poses.get(number)
+        if poses is None or not np.isfinite(poses[[source_k, target_k]]).all():
             return None
-        velocity, objects = start
-        for number in np.unique(objects[objects >= 0]).tolist():
-            means = [
-                frame.mean_velocity[number]
-                for k in range(source_k, target_k + 1)
-                if (frame := self._frame(k)) is not None and number in frame.mean_velocity
-            ]
-            # The trapezoid rule over evenly spaced frames.
-            weights = np.ones(len(means))
-            if len(means) > 1:
-                weights[[0, -1]] = 0.5
-            velocity[objects == number] += np.average(means, axis=0, weights=weights) - means[0]
-        return velocity
+        return poses[target_k] @ inverse(poses[source_k])
+
+    def _followed(self, number: int, source_k: int, target_k: int) -> Transform:
+        """The same by the motions that were fitted at the frames at which the object is seen."""
+        seen = [
+            (float(self._seconds[k]), frame.twists[number])
+            for k in range(source_k, target_k + 1)
+            if (frame := self._frame(k)) is not None and number in frame.twists
+        ]
+        # Until the end as it was seen last.
+        seen.append((float(self._seconds[target_k]), seen[-1][1]))
+        motion = np.eye(4)
+        for (before, first), (after, second) in pairwise(seen):
+            motion = first.mean_with(second).motion(after - before) @ motion
+        return motion
 
     def _read(self, k: int) -> _FrameTruth | None:
         index = int(self._message[k])
         if index < 0:
             return None
         table = fields_of(self._decoder.decode(self._topic.channel, index))
+        points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
         velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
-        numbers = np.unique(table["object"]).tolist()
-        means = {int(n): velocity[table["object"] == n].mean(axis=0) for n in numbers}
-        return _FrameTruth(table, means)
+        twists = {
+            int(n): fitted_twist(points[table["object"] == n], velocity[table["object"] == n])
+            for n in np.unique(table["object"]).tolist()
+        }
+        return _FrameTruth(table, points, velocity, twists)
 
 
 def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)

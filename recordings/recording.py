@@ -160,7 +160,7 @@ class Recording:
         tell; NaN for single points of which it does not.
         """
         cloud = self.cloud(k, max_range)
-        if isinstance(self._parts.truth, RigidTruth):
+        if self._everything_moves and isinstance(self._parts.truth, RigidTruth):
             return self._parts.truth.rates(k, cloud.points)
         found = self._parts.point_truths.at(k, cloud) if self._parts.point_truths else None
         return found[0] if found else None
@@ -174,10 +174,21 @@ class Recording:
         velocity = truth.over(source_k, self._checked(target_k), cloud.points) if truth else None
         if velocity is None:
             return None
-        if isinstance(truth, RigidTruth):
+        if self._everything_moves:
             return PairTruth(velocity, velocity)
-        points = self._parts.point_truths
-        return PairTruth(velocity, points.over(source_k, target_k, cloud) if points else None)
+        own = self._parts.point_truths
+        points = own.over(source_k, target_k, cloud) if own else None
+        if own and points is not None:
+            posed = own.posed(source_k, target_k, cloud)
+            velocity = np.where(posed[:, None], points, velocity)
+        return PairTruth(velocity, points)
+
+    @property
+    def _everything_moves(self) -> bool:
+        """Whether every point is taken to move with the truth: one is asked for, or it is all."""
+        parts = self._parts
+        rigid = isinstance(parts.truth, RigidTruth)
+        return rigid and (parts.truth_frame is not None or parts.point_truths is None)
 
     def _checked(self, k: int) -> int:
         if not 0 <= k < len(self):

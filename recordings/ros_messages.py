@@ -47,16 +47,25 @@ def depth_image(stamp: int, frame: str, ranges: NDArray[np.float64]) -> Any:  # 
     The sensor reports whole millimetres; REP 118 names this encoding.
     """
     millimetres = np.nan_to_num(np.round(ranges * 1000.0), nan=0.0).astype("<u2")
-    rows, columns = millimetres.shape
+    return _image(stamp, frame, "16UC1", millimetres)
+
+
+def status_image(stamp: int, frame: str, status: NDArray[np.uint8]) -> Any:  # noqa: ANN401
+    """sensor_msgs/Image, 8UC1, of ST's target status (rows, columns) of readings."""
+    return _image(stamp, frame, "8UC1", status)
+
+
+def _image(stamp: int, frame: str, encoding: str, values: NDArray[Any]) -> Any:  # noqa: ANN401
+    rows, columns = values.shape
     return _make(
         "sensor_msgs/msg/Image",
         header=header(stamp, frame),
         height=rows,
         width=columns,
-        encoding="16UC1",
+        encoding=encoding,
         is_bigendian=0,
-        step=2 * columns,
-        data=np.frombuffer(millimetres.tobytes(), dtype=np.uint8),
+        step=values.dtype.itemsize * columns,
+        data=np.frombuffer(values.tobytes(), dtype=np.uint8),
     )
 
 
@@ -124,11 +133,11 @@ def text(data: str) -> Any:  # noqa: ANN401
     return _make("std_msgs/msg/String", data=data)
 
 
-def twist(stamp: int, frame: str, velocity: NDArray[np.float64]) -> Any:  # noqa: ANN401
-    """geometry_msgs/TwistStamped of a translation at `velocity` (3,) m/s."""
-    motion = _make(
-        "geometry_msgs/msg/Twist", linear=_vector(velocity), angular=_vector(np.zeros(3))
-    )
+def twist(  # noqa: ANN201
+    stamp: int, frame: str, velocity: NDArray[np.float64], turn_rate: NDArray[np.float64]
+):
+    """geometry_msgs/TwistStamped of an origin's `velocity` (3,) m/s and `turn_rate` (3,) rad/s."""
+    motion = _make("geometry_msgs/msg/Twist", linear=_vector(velocity), angular=_vector(turn_rate))
     return _make("geometry_msgs/msg/TwistStamped", header=header(stamp, frame), twist=motion)
 
 

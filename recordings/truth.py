@@ -15,7 +15,9 @@ class PairTruth:
     """The truth over a pair, as the mean over its interval.
 
     Attributes:
-        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it.
+        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it. Where
+            the recording knows the poses of several objects, each point of one of them is compared
+            with that one, and every other point with the target.
         points: (N, 3) m/s of each source point itself, zero where static, NaN where unknown;
             None where the recording does not say.
     """
@@ -102,3 +104,26 @@ class RigidTruth:
         if k + 1 < len(self._seconds):
             return self.over(k, k + 1, points)
         return self.over(k, k - 1, points) if k > 0 else None
+
+
+class TurningTruth:
+    """An object that turns, whose velocity and pose were recorded.
+
+    Args:
+        twist: velocity of the object's origin.
+        rigid: its pose, by which points are carried along.
+    """
+
+    def __init__(self, twist: TwistTruth, rigid: RigidTruth) -> None:
+        self._twist, self._rigid = twist, rigid
+
+    def at(self, k: int) -> NDArray[np.float64] | None:
+        """Velocity (3,) m/s of the origin at frame `k`, None where unknown."""
+        return self._twist.at(k)
+
+    def over(
+        self, source_k: int, target_k: int, points: NDArray[np.float64]
+    ) -> NDArray[np.float64] | None:
+        """Displacement of each point, carried along rigidly, per interval: (N, 3) m/s."""
+        carried = self._rigid.over(source_k, target_k, points)
+        return self._twist.over(source_k, target_k, points) if carried is None else carried

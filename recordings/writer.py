@@ -12,6 +12,7 @@ from recordings import ros_messages as ros
 from recordings.contents import natural_key
 from recordings.errors import RecordingError
 from recordings.frame import Frame, PointTruth, Provenance
+from recordings.object_truth import OBJECT_FRAME
 from recordings.opening import PROVENANCE_RECORD
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
 from recordings.transforms import inverse
@@ -84,10 +85,14 @@ class RecordingWriter:
             self._write_constants(stamp)
         self._add("/joint_states", ros.joint_state(stamp, base, frame.joint_positions), stamp)
         self._add("/tf", ros.transforms(stamp, self._moving_poses(frame)), stamp)
-        for name, ranges in zip(self._names, frame.ranges, strict=True):
-            image = ros.depth_image(stamp, _frame_id(name), ranges)
+        for i, name in enumerate(self._names):
+            image = ros.depth_image(stamp, _frame_id(name), frame.ranges[i])
             self._add(f"/tof/{name}/image", image, stamp)
-        self._add("/target/velocity", ros.twist(stamp, base, frame.target_velocity), stamp)
+            if frame.status is not None:
+                status = ros.status_image(stamp, _frame_id(name), frame.status[i])
+                self._add(f"/tof/{name}/status", status, stamp)
+        motion = ros.twist(stamp, base, frame.target_velocity, frame.target_turn_rate)
+        self._add("/target/velocity", motion, stamp)
         self._add("/target/pose", ros.pose(stamp, base, frame.T_base_target), stamp)
         truth = PointTruth(
             points=frame.truth.points,
@@ -123,7 +128,11 @@ class RecordingWriter:
             for link, parent in self._robot.parents.items()
             if link not in self._robot.fixed_links
         ]
-        return [*moving, (self._robot.base, TARGET_FRAME, frame.T_base_target)]
+        base = self._robot.base
+        objects = [
+            (base, f"{OBJECT_FRAME}{number}", pose) for number, pose in frame.object_poses.items()
+        ]
+        return [*moving, (base, TARGET_FRAME, frame.T_base_target), *objects]
 
     def _add(self, topic: str, message: object, stamp: int, latched: bool = False) -> None:
         kind = message.__msgtype__  # type: ignore[attr-defined]

@@ -1,8 +1,7 @@
-"""`tofscope simulate`: recordings of the paper's scenarios, made up by ray casting."""
+"""`tofscope simulate`: recordings of the paper's scenarios and more, made up by ray casting."""
 
 import argparse
-from collections.abc import Iterable
-from itertools import product
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +10,18 @@ from recordings import RecordingError, open_recording
 from recordings.simulation import (
     IMPERFECTIONS,
     NOISE_MODELS,
+    PAPER_SCENARIOS,
     SCENARIOS,
-    SPEEDS,
     TRIALS,
+    Scenario,
     write_simulation,
 )
 from robot_assets import load_rig, load_robot
 
 _ENDING = ".mcap"
-_ONE_SPEED, _ONE_TRIAL = 0.25, 1
-_MAX_SPEED = 1.0
+_ALL, _MORE = "all", "more"
+_ONE_TRIAL = 1
+_MAX_SPEED = 2.0
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
@@ -32,18 +33,20 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         "simulate",
         help="make simulated recordings",
         description=(
-            "Simulate the paper's experiments: a Panda with 24 sensors in a lab, and a mannequin "
-            "carried by a second Panda, at 15 Hz, with the truth of every point. The same "
-            "scenario, speed, trial and seed give the same recording. A simulated recording that "
-            "exists under the name is replaced; any other file is left alone."
+            "Simulate the paper's experiments, and more: a Panda with 24 sensors in a lab, and a "
+            "mannequin carried by a second Panda, or something else that moves, at 15 Hz, with the "
+            "truth of every point. The same arguments give the same recording. A simulated "
+            "recording that exists under the name is replaced; any other file is left alone."
         ),
     )
     parser.add_argument(
         "scenarios",
         nargs="+",
-        choices=[*SCENARIOS, "all"],
+        choices=[*SCENARIOS, _ALL, _MORE],
         metavar="SCENARIO",
-        help=f"{scenarios}; all: all of them".replace("%", "%%"),
+        help=(
+            f"{scenarios}; {_ALL}: the paper's {', '.join(PAPER_SCENARIOS)}; {_MORE}: the others"
+        ).replace("%", "%%"),
     )
     parser.add_argument(
         "--out",
@@ -61,8 +64,9 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         type=float,
         metavar="M/S",
         help=(
-            f"speeds of the mannequin, up to {_MAX_SPEED:g} m/s (default: the paper's "
-            f"{', '.join(f'{s:.2f}' for s in SPEEDS)} into a folder, {_ONE_SPEED} into a file)"
+            f"speeds of what moves, up to {_MAX_SPEED:g} m/s; where nothing does it is 0 all the "
+            f"same (default: into a folder those of each scenario, which are {_speeds()}; into a "
+            f"file the one in the middle)"
         ),
     )
     parser.add_argument(
@@ -99,23 +103,24 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
     single = options.out.suffix == _ENDING and not options.out.is_dir()
-    names = (
-        list(SCENARIOS) if "all" in options.scenarios else list(dict.fromkeys(options.scenarios))
-    )
-    speeds = options.speed or ([_ONE_SPEED] if single else SPEEDS)
     trials = options.trial or ([_ONE_TRIAL] if single else TRIALS)
-    _check(speeds, trials, options.seed)
-    wanted = list(product(names, dict.fromkeys(speeds), dict.fromkeys(trials)))
+    _check(options.speed or [], trials, options.seed)
+    wanted = [
+        (scenario, speed, trial)
+        for scenario in _scenarios(options.scenarios)
+        for speed in dict.fromkeys(_speeds_of(scenario, options.speed, single))
+        for trial in dict.fromkeys(trials)
+    ]
     if single and len(wanted) > 1:
         raise InputError(
             f"{options.out} is a file, which holds one recording, and {len(wanted)} are asked "
             f"for; give --out a folder, or one scenario, speed and trial."
         )
     paths = {
-        (name, speed, trial): options.out
+        (scenario.name, speed, trial): options.out
         if single
-        else options.out / f"{name}_{_shown(speed)}_{trial}{_ENDING}"
-        for name, speed, trial in wanted
+        else options.out / f"{scenario.name}_{_shown(speed)}_{trial}{_ENDING}"
+        for scenario, speed, trial in wanted
     }
     for path in paths.values():
         _check_replaceable(path)
@@ -136,6 +141,34 @@ def run(options: argparse.Namespace) -> int:
         )
         print(f"{path}: {count} frames, {path.stat().st_size / 1e6:.1f} MB", flush=True)
     return 0
+
+
+def _scenarios(names: Iterable[str]) -> list[Scenario]:
+    """The scenarios of some names and groups, once each, in the order in which they are named."""
+    groups = {
+        _ALL: PAPER_SCENARIOS,
+        _MORE: [name for name in SCENARIOS if name not in PAPER_SCENARIOS],
+    }
+    found = dict.fromkeys(member for name in names for member in groups.get(name, [name]))
+    return [SCENARIOS[name] for name in found]
+
+
+def _speeds_of(scenario: Scenario, asked: list[float] | None, single: bool) -> Sequence[float]:
+    if scenario.still or not (asked or single):
+        return scenario.speeds
+    return asked or [scenario.speeds[len(scenario.speeds) // 2]]
+
+
+def _speeds() -> str:
+    """The speeds of the scenarios, for people."""
+    by_speeds: dict[tuple[float, ...], list[str]] = {}
+    for scenario in SCENARIOS.values():
+        if not scenario.still:
+            by_speeds.setdefault(scenario.speeds, []).append(scenario.name)
+    return ", ".join(
+        f"{' '.join(_shown(speed) for speed in speeds)} for {' '.join(names)}"
+        for speeds, names in by_speeds.items()
+    )
 
 
 def _shown(speed: float) -> str:

@@ -64,7 +64,7 @@ class Arm:
         if glide is None or spline is None or not glide.moves(time):
             return {link: np.zeros((4, 4)) for link in self._robot.links}
         s = glide.travelled(time)
-        now, rate = spline(s), spline(s, 1) * glide.speed
+        now, rate = spline(s), spline(s, 1) * glide.speed_at(time)
         after = self._placed(dict(zip(self._posture, (now + _STEP * rate).tolist(), strict=True)))
         before = self._placed(dict(zip(self._posture, (now - _STEP * rate).tolist(), strict=True)))
         return {link: (after[link] - before[link]) / (2 * _STEP) for link in after}

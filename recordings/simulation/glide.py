@@ -1,6 +1,7 @@
 """A pure translation along a path of straight pieces, between two rests."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,38 +14,64 @@ REST = 0.7
 class Glide:
     """Rest, then constant speed along the path, then rest.
 
-    The speed jumps at both ends, as if the arm had no inertia: every frame of the motion has the
-    commanded speed, and every stop is sharp.
+    Without ramps the speed jumps at both ends, as if the arm had no inertia: every frame of the
+    motion has the commanded speed, and every stop is sharp.
 
     Attributes:
         pieces: (P, 3) metres, the displacements that are added one after the other.
         speed: m/s along the path.
+        ramp: seconds of constant acceleration from rest to the speed, and of deceleration back; on
+            a path that is too short for both the acceleration is the same and the speed lower.
     """
 
     pieces: NDArray[np.float64]
     speed: float
+    ramp: float = 0.0
 
     def __post_init__(self) -> None:
         if not self.speed > 0:
             raise ValueError(f"A speed must be above 0 m/s, got {self.speed}.")
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Metres of the whole path."""
         return float(np.linalg.norm(self.pieces, axis=1).sum())
 
+    @cached_property
+    def _share(self) -> float:
+        """Share of the ramp for which the path has room, which is that of the speed, too."""
+        if self.length >= self.speed * self.ramp:
+            return 1.0
+        return float(np.sqrt(self.length / (self.speed * self.ramp)))
+
     @property
     def end(self) -> float:
         """Seconds at which the motion is over."""
-        return REST + self.length / self.speed
+        return REST + self.length / (self._share * self.speed) + self._share * self.ramp
 
     def moves(self, time: float) -> bool:
         """Whether it moves at `time`, seconds from the start of the recording."""
         return REST < time < self.end
 
+    def speed_at(self, time: float) -> float:
+        """Speed in m/s along the path at `time`, 0 at rest."""
+        if not self.moves(time):
+            return 0.0
+        if self.ramp == 0.0:
+            return self.speed
+        return self.speed * min((time - REST) / self.ramp, (self.end - time) / self.ramp, 1.0)
+
     def travelled(self, time: float) -> float:
         """Metres along the path at `time`."""
-        return float(np.clip((time - REST) * self.speed, 0.0, self.length))
+        if self.ramp == 0.0:
+            return float(np.clip((time - REST) * self.speed, 0.0, self.length))
+        gone, left = max(time - REST, 0.0), max(self.end - time, 0.0)
+        ramp, acceleration = self._share * self.ramp, self.speed / self.ramp
+        if gone <= ramp:
+            return 0.5 * acceleration * gone**2
+        if left <= ramp:
+            return self.length - 0.5 * acceleration * left**2
+        return self.speed * (gone - 0.5 * ramp)
 
     def displacement(self, travelled: float) -> NDArray[np.float64]:
         """Displacement (3,) in metres after so many metres of the path."""
@@ -59,4 +86,4 @@ class Glide:
             return np.zeros(3)
         ends = np.cumsum(np.linalg.norm(self.pieces, axis=1))
         piece = self.pieces[min(int(np.searchsorted(ends, self.travelled(time))), len(ends) - 1)]
-        return self.speed * piece / np.linalg.norm(piece)
+        return self.speed_at(time) * piece / np.linalg.norm(piece)

@@ -1,4 +1,4 @@
-"""The mannequin: head, torso and arms, each lofted over its cross-sections."""
+"""The mannequin, and a person: each part lofted over its cross-sections."""
 
 import numpy as np
 import trimesh
@@ -46,8 +46,25 @@ _ARM = (
     (0.025, 0.046, 0.050, 0.000),
     (0.048, 0.012, 0.014, 0.000),
 )
-_SHOULDER = (0.212, 0.0, 0.165)
-_SPREAD = 0.5  # rad, of the arms away from the body
+# From the sole to the hip, whose middle is at height 0.
+_LEG = (
+    (-0.840, 0.036, 0.110, 0.060),
+    (-0.830, 0.044, 0.120, 0.060),
+    (-0.800, 0.044, 0.110, 0.052),
+    (-0.760, 0.042, 0.066, 0.016),
+    (-0.700, 0.040, 0.046, 0.000),
+    (-0.550, 0.056, 0.062, -0.012),
+    (-0.420, 0.058, 0.060, 0.000),
+    (-0.250, 0.074, 0.078, 0.000),
+    (-0.080, 0.088, 0.096, 0.000),
+    (0.000, 0.086, 0.094, 0.000),
+    (0.050, 0.020, 0.024, 0.000),
+)
+SHOULDER = (0.212, 0.0, 0.165)
+"""The left shoulder, metres in the frame of the chest."""
+HIP = (0.092, 0.0, -0.36)
+"""The left hip, likewise."""
+_SPREAD, _HANGING = 0.5, 0.12  # rad, of the arms away from the body
 GRIP = (0.0, 0.125, 0.13)
 """The middle of the outer side of the plate between the shoulders, metres in its frame."""
 _PLATE = (0.10, 0.06, 0.10)
@@ -60,14 +77,30 @@ def mannequin() -> trimesh.Trimesh:
 
     Its frame has the origin in the middle of the chest, z up, and it faces -y.
     """
-    left = _loft(_ARM)
-    left.apply_transform(trimesh.transformations.rotation_matrix(-_SPREAD, (0.0, 1.0, 0.0)))
-    left.apply_translation(_SHOULDER)
+    left = _left_arm(_SPREAD)
     right = left.copy()
     right.apply_transform(trimesh.transformations.reflection_matrix((0, 0, 0), (1, 0, 0)))
     plate = trimesh.creation.box(_PLATE)
     plate.apply_translation((GRIP[0], GRIP[1] - _PLATE[1] / 2, GRIP[2]))
     return trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD), left, right, plate])  # type: ignore[return-value]
+
+
+def person() -> tuple[trimesh.Trimesh, trimesh.Trimesh, trimesh.Trimesh]:
+    """A person of about 1.75 m: head and torso, left arm, left leg, in the frame of the chest.
+
+    The limbs hang straight. The soles are 1.20 m below the middle of the chest.
+    """
+    body = trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD)])
+    leg = _loft(_LEG)
+    leg.apply_translation(HIP)
+    return body, _left_arm(_HANGING), leg  # type: ignore[return-value]
+
+
+def _left_arm(spread: float) -> trimesh.Trimesh:
+    """The left arm at its shoulder, `spread` rad away from the body."""
+    arm = _loft(_ARM)
+    arm.apply_transform(trimesh.transformations.rotation_matrix(-spread, (0.0, 1.0, 0.0)))
+    return arm.apply_translation(SHOULDER)
 
 
 def _loft(sections: tuple[tuple[float, float, float, float], ...]) -> trimesh.Trimesh:

@@ -1,9 +1,10 @@
-"""The paper's three scenarios: what moves, where to, how far (section III-B)."""
+"""The scenarios: what moves, where to, how far; the paper's three (section III-B), and more."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from recordings.simulation.casts import Cast, crossing, fast, turning, walking
 from recordings.simulation.glide import Glide
 
 SPEEDS = (0.15, 0.20, 0.25, 0.30)
@@ -19,35 +20,43 @@ _UPRIGHT = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
 
 @dataclass(frozen=True)
 class Scenario:
-    """An experiment of the paper.
+    """An experiment.
 
     Attributes:
         name: as on the command line and in file names.
         text: what happens, in one clause.
         start: (x, y) metres from the nominal place of the mannequin to where it starts.
-        mannequin: the straight pieces of the mannequin's path, metres in the fixed frame.
+        mannequin: the straight pieces of the mannequin's path, metres in the fixed frame, empty
+            where it rests.
         robot: the straight pieces of the sensorised end-effector's path, empty where it rests.
         robot_speed: m/s of the sensorised end-effector.
         posture: the seven joints of the sensorised arm at the start, rad.
         speeds: m/s at which it is made where no speed is asked for.
+        cast: what moves in place of the mannequin and of the second robot that carries it.
     """
 
     name: str
     text: str
-    start: tuple[float, float]
-    mannequin: _Path
+    start: tuple[float, float] = (0.0, 0.0)
+    mannequin: _Path = ()
     robot: _Path = ()
     robot_speed: float = 0.25
     posture: tuple[float, ...] = _UPRIGHT
     speeds: tuple[float, ...] = SPEEDS
+    cast: Cast | None = None
 
-    def mannequin_glide(self, speed: float) -> Glide:
-        """The mannequin's motion at `speed` m/s."""
-        return Glide(np.array(self.mannequin), speed)
+    @property
+    def still(self) -> bool:
+        """Whether nothing moves but the sensorised robot; then its speed is 0."""
+        return self.cast is None and not self.mannequin
 
-    def robot_glide(self) -> Glide | None:
+    def mannequin_glide(self, speed: float, ramp: float = 0.0) -> Glide | None:
+        """The mannequin's motion at `speed` m/s with ramps of so many seconds, None at rest."""
+        return Glide(np.array(self.mannequin), speed, ramp) if self.mannequin else None
+
+    def robot_glide(self, ramp: float = 0.0) -> Glide | None:
         """The motion of the sensorised end-effector, None where it rests."""
-        return Glide(np.array(self.robot), self.robot_speed) if self.robot else None
+        return Glide(np.array(self.robot), self.robot_speed, ramp) if self.robot else None
 
 
 _TOWARDS: _Path = ((0.0, -0.30, 0.0),)
@@ -78,6 +87,36 @@ SCENARIOS = {
             start=(0.0, 0.0),
             mannequin=_TOWARDS,
             robot=_RETREAT,
+        ),
+        Scenario(
+            "walking",
+            "a person walks 1.04 m up to the robot, arms and legs swinging",
+            speeds=(0.25, 0.5, 1.0),
+            cast=walking,
+        ),
+        Scenario(
+            "turning",
+            "a mannequin turns by 90 degrees on the spot, its hand at the speed",
+            cast=turning,
+        ),
+        Scenario(
+            "crossing",
+            "two mannequins pass each other along x, 1.20 m each",
+            speeds=(0.25, 0.5),
+            cast=crossing,
+        ),
+        Scenario(
+            "fast",
+            "a parcel flies past, 2.20 m along x",
+            speeds=(0.5, 1.0, 1.5, 2.0),
+            cast=fast,
+        ),
+        Scenario("still", "nothing moves; the mannequin stands there", speeds=(0.0,)),
+        Scenario(
+            "still_robot_moving",
+            "nothing moves but the sensorised arm, as in robot_moving",
+            robot=_RETREAT,
+            speeds=(0.0,),
         ),
     )
 }

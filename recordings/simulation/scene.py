@@ -1,21 +1,19 @@
-"""The scene of a scenario: both robots, the mannequin and the lab, at any time."""
-
-from dataclasses import dataclass
+"""The scene of a scenario: the robots, what moves and the lab, at any time."""
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
 from recordings.simulation.arm import Arm
+from recordings.simulation.body import OWN_ROBOT, SECOND_ROBOT, TARGET, Actor, Body
 from recordings.simulation.glide import REST, Glide
 from recordings.simulation.inverse_kinematics import FLANGE, inverse_kinematics
 from recordings.simulation.mannequin import GRIP, mannequin
+from recordings.simulation.motion import Translation
 from recordings.simulation.scenario import Scenario
+from recordings.simulation.surface import PAINT, PLASTIC
 from recordings.simulation.surroundings import surroundings
 from robot_assets import Robot, Transform
-
-SURROUNDINGS, MANNEQUIN, OWN_ROBOT, SECOND_ROBOT = 0, 1, 2, 3
-"""Numbers of objects in the truth; the links of the second robot follow from SECOND_ROBOT on."""
 
 # Where the middle of the mannequin's chest starts, in the fixed frame. Its front is then 0.75 m
 # from the robot's axis, as the distance in the paper is understood here.
@@ -24,34 +22,8 @@ _MANNEQUIN_PLACE = np.array([0.0, 0.885, 0.43])
 _SECOND_ROBOT_PLACE = np.array([0.0, 1.485, 0.0])
 _SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 2.75, np.pi / 4)
 _FINGERS = 0.105  # metres from the flange to what the fingers hold
+_SHORTEST = 3.0  # seconds
 _JOINTS = tuple(f"panda_joint{i}" for i in range(1, 8))
-
-
-@dataclass(frozen=True)
-class Body:
-    """Something that may move: a mesh at a pose, and how the pose changes.
-
-    Attributes:
-        number: of its object in the truth.
-        mesh: in its own frame, metres.
-        T_fixed_body: (4, 4).
-        rate: (4, 4), the derivative of T_fixed_body.
-    """
-
-    number: int
-    mesh: trimesh.Trimesh
-    T_fixed_body: Transform
-    rate: Transform
-
-    def placed(self) -> trimesh.Trimesh:
-        """The mesh in the fixed frame."""
-        return self.mesh.copy().apply_transform(self.T_fixed_body)
-
-    def velocity(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Velocity (N, 3) m/s of points (N, 3) of the body, in the fixed frame."""
-        R, t = self.T_fixed_body[:3, :3], self.T_fixed_body[:3, 3]
-        in_body = (points - t) @ R
-        return in_body @ self.rate[:3, :3].T + self.rate[:3, 3]
 
 
 class Scene:
@@ -59,48 +31,62 @@ class Scene:
 
     Args:
         scenario: what moves.
-        speed: m/s of the mannequin.
+        speed: m/s of the target.
         robot: the sensorised robot; the second one is of the same kind.
-        offset: (3,) metres by which the mannequin starts elsewhere.
+        offset: (3,) metres by which the target starts elsewhere.
+        ramp: seconds that whatever moves takes to reach its speed, and to stop.
     """
 
     def __init__(
-        self, scenario: Scenario, speed: float, robot: Robot, offset: NDArray[np.float64]
+        self,
+        scenario: Scenario,
+        speed: float,
+        robot: Robot,
+        offset: NDArray[np.float64],
+        ramp: float = 0.0,
     ) -> None:
-        self._glide = scenario.mannequin_glide(speed)
-        self._mannequin = mannequin()
-        self._start = _MANNEQUIN_PLACE + np.array([*scenario.start, 0.0]) + offset
         self._robot = robot
-        self.own = Arm(robot, np.eye(4), _posture(scenario.posture), scenario.robot_glide())
-        self._second = _second_arm(robot, self._start, self._glide)
-        self.static = surroundings()
+        self.own = Arm(robot, np.eye(4), _posture(scenario.posture), scenario.robot_glide(ramp))
+        self._second: Arm | None = None
+        if scenario.cast:
+            self._actors = scenario.cast(speed, offset, ramp)
+        else:
+            start = _MANNEQUIN_PLACE + np.array([*scenario.start, 0.0]) + offset
+            glide = scenario.mannequin_glide(speed, ramp)
+            self._actors = [Actor(TARGET, mannequin(), PLASTIC, Translation(start, glide))]
+            self._second = _second_arm(robot, start, glide)
+        self.static = surroundings(pedestal=self._second is not None)
+        # A mannequin that glides at one speed is told by its velocity.
+        self._told_by_velocity = scenario.cast is None and ramp == 0.0
 
     @property
     def duration(self) -> float:
         """Seconds until all have rested again."""
-        return max(self._glide.end, self.own.end) + REST
+        ends = [actor.motion.end for actor in self._actors]
+        end = max(self.own.end, *ends) + REST
+        return end if any(ends) else max(end, _SHORTEST)
 
-    def target_velocity(self, time: float) -> NDArray[np.float64]:
-        """Velocity (3,) m/s of the mannequin."""
-        return self._glide.velocity(time)
+    def target(self, time: float) -> Body:
+        """The target at `time`."""
+        return self._actors[0].at(time)
 
-    def T_base_target(self, time: float) -> Transform:  # noqa: N802 (a transformation)
-        """Pose (4, 4) of the mannequin's frame."""
-        pose = np.eye(4)
-        pose[:3, 3] = self._start + self._glide.displacement(self._glide.travelled(time))
-        return pose
+    def object_poses(self, time: float) -> dict[int, Transform]:
+        """{number: T_fixed_body (4, 4)} of the objects whose velocity alone does not tell all."""
+        if self._told_by_velocity:
+            return {}
+        return {actor.number: actor.motion.pose(time) for actor in self._actors}
 
     def bodies(self, time: float) -> list[Body]:
-        """The mannequin and the links of both robots."""
-        rate = np.zeros((4, 4))
-        rate[:3, 3] = self.target_velocity(time)
-        bodies = [Body(MANNEQUIN, self._mannequin, self.T_base_target(time), rate)]
+        """What moves on its own and the links of the robots."""
+        bodies = [actor.at(time) for actor in self._actors]
         meshes = self._robot.collision_meshes
         poses, rates = self.own.link_poses(time), self.own.link_rates(time)
-        bodies += [Body(OWN_ROBOT, m, poses[link], rates[link]) for link, m in meshes.items()]
-        poses, rates = self._second.link_poses(time), self._second.link_rates(time)
-        for number, (link, mesh) in enumerate(meshes.items(), SECOND_ROBOT):
-            bodies.append(Body(number, mesh, poses[link], rates[link]))
+        for link, mesh in meshes.items():
+            bodies.append(Body(OWN_ROBOT, mesh, PAINT, poses[link], rates[link]))
+        if self._second:
+            poses, rates = self._second.link_poses(time), self._second.link_rates(time)
+            for number, (link, mesh) in enumerate(meshes.items(), SECOND_ROBOT):
+                bodies.append(Body(number, mesh, PAINT, poses[link], rates[link]))
         return bodies
 
 
@@ -108,7 +94,7 @@ def _posture(values: tuple[float, ...]) -> dict[str, float]:
     return dict(zip(_JOINTS, values, strict=True))
 
 
-def _second_arm(robot: Robot, mannequin_start: NDArray[np.float64], glide: Glide) -> Arm:
+def _second_arm(robot: Robot, mannequin_start: NDArray[np.float64], glide: Glide | None) -> Arm:
     """The robot that holds the mannequin by the plate on its back."""
     T_fixed_base = trimesh.transformations.rotation_matrix(-np.pi / 2, (0.0, 0.0, 1.0))
     T_fixed_base[:3, 3] = _SECOND_ROBOT_PLACE

@@ -6,7 +6,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from recordings.simulation.noise import NoiseModel
+from recordings.simulation.edges import Edges, Seen, edges
 from robot_assets import RayCaster, Rig, SensorModel, zone_rays
 
 _SUB_RAYS = 4  # along each side of a zone
@@ -76,43 +76,34 @@ class ZoneRays:
         origins = np.broadcast_to(t[:, None, None, None, :], directions.shape)
         return origins.reshape(-1, 3), directions.reshape(-1, 3)
 
-    def readings(self, hits: Hits) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """What each zone reads without noise, and the piece it sees.
+    def seen(self, hits: Hits) -> Seen:
+        """What each zone sees: the piece that fills most of its footprint.
 
-        A zone reads the piece that fills most of its footprint, the nearest of them where two fill
-        as much, at the mean over the rays that meet it: the sensor reports the strongest return.
-
-        Returns:
-            (S, rows, columns) metres, inf where nothing is met, and the piece, -1 likewise.
+        The nearest of them where two fill as much, at the mean over the rays that meet it: the
+        sensor reports the strongest return.
         """
-        shape = (-1, *self._lengths.shape)
-        distance, piece = hits.distance.reshape(shape), hits.piece.reshape(shape)
+        distance, piece = self._by_zone(hits)
         same = piece[..., :, None] == piece[..., None, :]
         near = np.minimum(distance, _FAR) / (2 * _FAR)
         strongest = np.argmax(same.sum(axis=-1) - near, axis=-1)[..., None]
         piece_seen = np.take_along_axis(piece, strongest, axis=-1)
-        if self._model.distance == "perpendicular":
-            distance = distance / self._lengths
         mine = piece == piece_seen
-        total = np.where(mine, distance, 0.0).sum(axis=-1)
-        return total / mine.sum(axis=-1), piece_seen[..., 0]
+        total = np.where(mine, self._measured(distance), 0.0).sum(axis=-1)
+        return Seen(total / mine.sum(axis=-1), piece_seen[..., 0])
 
+    def edges(self, hits: Hits) -> Edges:
+        """Which zones look across a step, and at what."""
+        distance, piece = self._by_zone(hits)
+        return edges(self._measured(distance), piece)
 
-def sensed(
-    readings: NDArray[np.float64],
-    model: SensorModel,
-    noise: NoiseModel,
-    rng: np.random.Generator,
-    error: NDArray[np.float64] | float = 0.0,
-) -> NDArray[np.float64]:
-    """Add noise and a further error; NaN where nothing is met or it is out of the sensor's range.
+    def _by_zone(self, hits: Hits) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Distances along the rays and pieces, both (S, rows, columns, n * n)."""
+        shape = (-1, *self._lengths.shape)
+        return hits.distance.reshape(shape), hits.piece.reshape(shape)
 
-    Readings and error are in metres.
-    """
-    met = np.isfinite(readings)
-    noisy = noise.sample(np.where(met, readings, 0.0), rng) + error
-    valid = met & (noisy >= model.min_range) & (noisy <= model.max_range)
-    return np.where(valid, noisy, np.nan)
+    def _measured(self, distance: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Distances along the rays as the sensor measures them."""
+        return distance / self._lengths if self._model.distance == "perpendicular" else distance
 
 
 def _sub_rays(model: SensorModel) -> NDArray[np.float64]:

@@ -1,17 +1,19 @@
-"""The simulator: a scenario of the paper as the sensors of a rig see it."""
+"""The simulator: a scenario as the sensors of a rig see it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from recordings.frame import Frame, PointTruth, Provenance
-from recordings.simulation.imperfections import Bias, Streams, in_order
+from recordings.simulation.body import SURROUNDINGS, Body
+from recordings.simulation.imperfections import Streams, in_order
 from recordings.simulation.noise import NoiseModel
 from recordings.simulation.scenario import Scenario
-from recordings.simulation.scene import SURROUNDINGS, Body, Scene
-from recordings.simulation.sensors import PieceCaster, ZoneRays, sensed
+from recordings.simulation.scene import Scene
+from recordings.simulation.sensing import Sensing
+from recordings.simulation.sensors import PieceCaster, ZoneRays
 from recordings.writer import RecordingWriter
 from robot_assets import Rig, Robot
 
@@ -19,6 +21,10 @@ RATE = 15.0
 """Frames per second (paper, section III-A)."""
 _FIRST_STAMP = 1.0  # seconds; a stamp of 0 means "unknown" to ROS
 _OFFSET = 0.015  # metres, the most by which a trial starts elsewhere along each axis
+RAMP = 0.25
+"""Seconds of acceleration and of deceleration where there are ramps."""
+_LOST = 0.05  # share of the frames
+_JITTER, _MOST = 0.004, 0.015  # seconds: one sigma, and the most
 
 
 def simulate(
@@ -39,7 +45,7 @@ def simulate(
 
     Args:
         scenario: what moves.
-        speed: m/s of the mannequin.
+        speed: m/s of the target, 0 where nothing moves.
         trial: number of the trial, from 1.
         seed: of the random numbers, 0 or more.
         noise: how readings err.
@@ -48,34 +54,56 @@ def simulate(
         rig: its sensors.
 
     Raises:
-        ValueError: the speed is not above 0, or there is no such imperfection.
+        ValueError: the speed is not above 0, nothing moves and it is not 0, or there is no such
+            imperfection.
     """
+    if scenario.still and speed != 0.0:
+        raise ValueError(f"In {scenario.name} nothing moves; its speed is 0, got {speed}.")
     key = [seed, trial, round(speed * 1e6), *scenario.name.encode()]
     rng, streams = np.random.default_rng(key), Streams(key)
     on = in_order(imperfections)
-    bias = Bias(len(rig.sensors), streams.of("bias")) if "bias" in on else None
-    scene = Scene(scenario, speed, robot, rng.uniform(-_OFFSET, _OFFSET, 3))
+    offset = rng.uniform(-_OFFSET, _OFFSET, 3)
+    scene = Scene(scenario, speed, robot, offset, RAMP if "ramps" in on else 0.0)
+    sensing = Sensing(len(rig.sensors), rig.model, noise, on, rng, streams)
     rays = ZoneRays(rig)
-    static = PieceCaster(dict(enumerate(scene.static)))
-    for k in range(int(scene.duration * RATE) + 1):
-        time = k / RATE
+    static = PieceCaster({index: piece.mesh for index, piece in enumerate(scene.static)})
+    surfaces = {index: piece.surface for index, piece in enumerate(scene.static)}
+    for time, lost in _times(scene.duration, on, streams):
         links = scene.own.link_poses(time)
         T_base_sensor = np.stack([links[s.link] @ s.T_link_sensor for s in rig.sensors])
         bodies = dict(enumerate(scene.bodies(time), len(scene.static)))
         moving = PieceCaster({index: body.placed() for index, body in bodies.items()})
         bundle = rays.in_fixed(T_base_sensor)
-        readings, piece = rays.readings(moving.cast(*bundle).before(static.cast(*bundle)))
-        error = bias.error(readings) if bias else 0.0
-        ranges = sensed(readings, rig.model, noise, rng, error)
-        in_sensor = readings[..., None] * rig.model.directions
+        hits = moving.cast(*bundle).before(static.cast(*bundle))
+        surfaces |= {index: body.surface for index, body in bodies.items()}
+        edges = rays.edges(hits) if sensing.needs_edges else None
+        report = sensing.report(rays.seen(hits), edges, surfaces)
+        if lost:
+            continue
+        in_sensor = report.seen.distance[..., None] * rig.model.directions
+        target = scene.target(time)
         yield Frame(
             stamp=_FIRST_STAMP + time,
-            ranges=ranges,
+            ranges=report.ranges,
+            status=report.status,
             joint_positions=scene.own.joint_positions(time),
-            T_base_target=scene.T_base_target(time),
-            target_velocity=scene.target_velocity(time),
-            truth=_truth(np.isfinite(ranges), in_sensor, piece, T_base_sensor, bodies),
+            T_base_target=target.T_fixed_body,
+            target_velocity=target.rate[:3, 3],
+            target_turn_rate=target.turn_rate,
+            object_poses=scene.object_poses(time),
+            truth=_truth(report.valid, in_sensor, report.seen.piece, T_base_sensor, bodies),
         )
+
+
+def _times(
+    duration: float, imperfections: Collection[str], streams: Streams
+) -> Iterator[tuple[float, bool]]:
+    """When each frame is taken, seconds from the start, and whether it is lost."""
+    jitter, loss = streams.of("stamp_jitter"), streams.of("dropped_frames")
+    for k in range(int(duration * RATE) + 1):
+        early_or_late = float(np.clip(_JITTER * jitter.standard_normal(), -_MOST, _MOST))
+        lost = bool(loss.random() < _LOST) and "dropped_frames" in imperfections
+        yield k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0), lost
 
 
 def _truth(

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 
 import trimesh
 
+from recordings.simulation.body import Piece
+from recordings.simulation.surface import CARDBOARD, CLOTH, PAINT, SCREEN, STEEL, WOOD
+
 _FLOOR = -0.75  # height below the robots' bases, metres
 
 
@@ -51,6 +54,8 @@ _SHELF = (
     _Box((-1.15, -0.81, 0.0), (0.46, 0.02, 1.95)),
     _Box((-1.15, 0.41, 0.0), (0.46, 0.02, 1.95)),
     *(_Box((-1.15, -0.2, z), (0.46, 1.2, 0.025)) for z in (0.10, 0.55, 1.00, 1.45, 1.93)),
+)
+_PARCELS = (
     _Box((-1.12, -0.55, 0.575), (0.38, 0.40, 0.30)),
     _Box((-1.10, 0.10, 0.575), (0.36, 0.50, 0.34)),
     _Box((-1.10, -0.45, 1.025), (0.36, 0.60, 0.32)),
@@ -68,21 +73,45 @@ _DESK = (
     _Box((-1.75, 2.0, 0.70), (0.80, 1.60, 0.04)),
     _Box((-1.75, 1.25, 0.0), (0.76, 0.04, 0.70)),
     _Box((-1.75, 2.75, 0.0), (0.76, 0.04, 0.70)),
+)
+_MONITOR = (
     _Box((-1.95, 2.0, 0.84), (0.04, 0.62, 0.38)),
     _Box((-1.97, 2.0, 0.74), (0.16, 0.22, 0.10)),
+)
+_CHAIR = (
     _Box((-1.10, 1.9, 0.44), (0.46, 0.46, 0.06)),
     _Box((-0.90, 1.9, 0.50), (0.05, 0.42, 0.45)),
     _Box((-1.10, 1.9, 0.0), (0.08, 0.08, 0.44)),
 )
 
 
-def surroundings() -> list[trimesh.Trimesh]:
-    """Everything that stands still, a closed mesh in the fixed frame for each surface."""
-    boxes = (*_ROOM, *_BENCH, *_PEDESTAL, *_CABINET, *_SHELF, *_RACK, *_DESK)
-    pieces: list[trimesh.Trimesh] = []
-    for box in boxes:
-        piece = trimesh.creation.box(box.size)
-        x, y, height = box.place
-        piece.apply_translation((x, y, _FLOOR + height + box.size[2] / 2))
-        pieces.append(piece)
+_FURNITURE = (
+    (_ROOM, PAINT),
+    (_BENCH, WOOD),
+    (_PEDESTAL, STEEL),
+    (_CABINET, PAINT),
+    (_SHELF, WOOD),
+    (_PARCELS, CARDBOARD),
+    (_RACK, STEEL),
+    (_DESK, WOOD),
+    (_MONITOR, SCREEN),
+    (_CHAIR, CLOTH),
+)
+
+
+def surroundings(pedestal: bool = True) -> list[Piece]:
+    """Everything that stands still, a closed mesh in the fixed frame for each surface.
+
+    Args:
+        pedestal: whether there is that of the second robot.
+    """
+    pieces: list[Piece] = []
+    for boxes, surface in _FURNITURE:
+        if boxes is _PEDESTAL and not pedestal:
+            continue
+        for box in boxes:
+            mesh = trimesh.creation.box(box.size)
+            x, y, height = box.place
+            mesh.apply_translation((x, y, _FLOOR + height + box.size[2] / 2))
+            pieces.append(Piece(mesh, surface))
     return pieces

@@ -4,6 +4,7 @@ import pytest
 
 from app.command_line import main
 from recordings import open_recording
+from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, SCENARIOS
 
 QUICK = ["--speed", "1", "--trial", "2", "--noise", "none"]
 
@@ -43,6 +44,28 @@ def test_a_folder_for_several(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert len(capsys.readouterr().out.splitlines()) == 3
 
 
+def test_each_scenario_has_its_own_speeds(tmp_path: Path):
+    arguments = ["still", "crossing", "--trial", "1", "--noise", "none", "--out", str(tmp_path)]
+    assert main(["simulate", *arguments]) == 0
+    assert made(tmp_path) == ["crossing_0.25_1.mcap", "crossing_0.50_1.mcap", "still_0.00_1.mcap"]
+
+
+def test_where_nothing_moves_the_speed_that_is_asked_for_is_for_the_others(tmp_path: Path):
+    arguments = ["still", "fast", "--speed", "2", "--trial", "1", "--noise", "none"]
+    assert main(["simulate", *arguments, "--out", str(tmp_path)]) == 0
+    assert made(tmp_path) == ["fast_2.00_1.mcap", "still_0.00_1.mcap"]
+
+
+def test_imperfections_are_written_down(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    out = tmp_path / "mine.mcap"
+    arguments = ["towards", *QUICK, "--imperfections", "ramps", "bias", "--out", str(out)]
+    assert main(["simulate", *arguments]) == 0
+    assert main(["info", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "\nimperfections bias, ramps\n" in said
+    assert "--noise none --imperfections bias ramps --out mine.mcap\n" in said
+
+
 def test_all_combinations_once(tmp_path: Path):
     arguments = ["towards", "towards", "--speed", "1", "0.875", "1", "--trial", "1", "2"]
     assert main(["simulate", *arguments, "--noise", "none", "--out", str(tmp_path)]) == 0
@@ -73,8 +96,8 @@ def test_a_simulated_recording_is_replaced_and_nothing_else_is(
     [
         (["all", "--out", "x.mcap"], "x.mcap is a file, which holds one recording, and 3 are"),
         (["towards", "--trial", "1", "2", "--out", "x.mcap"], "and 2 are asked for"),
-        (["towards", "--speed", "0", "--out", "x"], "--speed must be above 0 and at most 1 m/s"),
-        (["towards", "--speed", "nan", "--out", "x"], "--speed must be above 0 and at most 1 m/s"),
+        (["towards", "--speed", "0", "--out", "x"], "--speed must be above 0 and at most 2 m/s"),
+        (["towards", "--speed", "nan", "--out", "x"], "--speed must be above 0 and at most 2 m/s"),
         (["towards", "--trial", "0", "--out", "x"], "--trial must be 1 or more, got 0"),
         (["towards", "--seed", "-1", "--out", "x"], "--seed must be 0 or more, got -1"),
         (["towards", "--out", "no/where/x.mcap"], "no/where/x.mcap cannot be written"),
@@ -103,6 +126,7 @@ def test_wrong_arguments_are_one_sentence(
         (["backwards", "--out", "x"], "towards"),
         (["towards"], "--out"),
         (["towards", "--out", "x", "--noise", "loud"], "paper"),
+        (["towards", "--out", "x", "--imperfections", "rust"], "bias"),
     ],
 )
 def test_unknown_names_are_one_sentence_that_lists_the_known(
@@ -122,5 +146,5 @@ def test_help_says_what_happens_to_files_that_exist(capsys: pytest.CaptureFixtur
     assert stop.value.code == 0
     text = " ".join(capsys.readouterr().out.split())
     assert "exists under the name is replaced" in text
-    for name in ("towards", "sideways", "robot_moving", "all", "8 to 11 %"):
+    for name in [*SCENARIOS, *NOISE_MODELS, *IMPERFECTIONS, "all", "more", "8 to 11 %"]:
         assert name in text

@@ -1,14 +1,13 @@
 import numpy as np
 import pytest
 
-from recordings.simulation.scenario import SCENARIOS, SPEEDS, TRIALS
+from recordings.simulation.scenario import PAPER_SCENARIOS, SCENARIOS, SPEEDS, TRIALS
 
 
 def test_the_paths_are_the_papers():
-    assert list(SCENARIOS) == ["towards", "sideways", "robot_moving"]
-    towards, sideways, moving = SCENARIOS.values()
-    assert towards.mannequin_glide(0.2).displacement(9.0) == pytest.approx([0.0, -0.30, 0.0])
-    assert sideways.mannequin_glide(0.2).displacement(9.0) == pytest.approx([0.25, 0.0, 0.0])
+    towards, sideways, moving = (SCENARIOS[name] for name in PAPER_SCENARIOS)
+    assert np.array(towards.mannequin) == pytest.approx(np.array([[0.0, -0.30, 0.0]]))
+    assert np.array(sideways.mannequin) == pytest.approx(np.array([[0.25, 0.0, 0.0]]))
     assert moving.mannequin == towards.mannequin
     assert towards.robot_glide() is None
     assert sideways.robot_glide() is None
@@ -28,3 +27,16 @@ def test_the_arm_draws_back_by_the_papers_two_pieces_in_one_direction():
 def test_speeds_and_trials_are_the_papers():
     assert SPEEDS == (0.15, 0.20, 0.25, 0.30)
     assert len(TRIALS) == 5
+    assert all(SCENARIOS[name].speeds == SPEEDS for name in PAPER_SCENARIOS)
+
+
+def test_a_person_walks_at_three_speeds_and_something_flies_at_2_m_s():
+    assert len(SCENARIOS["walking"].speeds) == 3
+    assert max(SCENARIOS["fast"].speeds) == 2.0
+
+
+def test_nothing_moves_where_the_speed_is_0():
+    still = [name for name, scenario in SCENARIOS.items() if scenario.still]
+    assert still == ["still", "still_robot_moving"]
+    assert [SCENARIOS[name].robot_glide() is not None for name in still] == [False, True]
+    assert all(SCENARIOS[name].speeds == (0.0,) for name in still)

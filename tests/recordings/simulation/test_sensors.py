@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from recordings.simulation.noise import NOISE_MODELS
-from recordings.simulation.sensors import PieceCaster, ZoneRays, sensed
+from recordings.simulation.sensors import PieceCaster, ZoneRays
 from robot_assets import Rig, Sensor, SensorModel
 
 
@@ -25,8 +24,8 @@ def read(
 ) -> tuple[np.ndarray, np.ndarray]:
     rays = ZoneRays(rig(model or SensorModel()))
     hits = PieceCaster(pieces).cast(*rays.in_fixed(np.eye(4)[None] if pose is None else pose))
-    readings, piece = rays.readings(hits)
-    return readings[0], piece[0]
+    seen = rays.seen(hits)
+    return seen.distance[0], seen.piece[0]
 
 
 def test_a_wall_straight_ahead_has_one_perpendicular_distance():
@@ -85,11 +84,31 @@ def test_nothing_ahead_reads_as_nothing():
     assert (piece == -1).all()
 
 
-def test_readings_outside_the_range_are_invalid():
-    model, rng = SensorModel(), np.random.default_rng(0)
-    true = np.array([0.01, 0.02, 1.0, 4.0, 4.01, np.inf])
-    ranges = sensed(true, model, NOISE_MODELS["none"], rng)
-    assert np.isfinite(ranges).tolist() == [False, True, True, True, False, False]
-    noisy = sensed(np.full(10_000, 4.0), model, NOISE_MODELS["paper"], rng)
-    assert 0.4 < np.isnan(noisy).mean() < 0.6
-    assert np.nanmax(noisy) <= 4.0
+@pytest.mark.parametrize("distance", ["perpendicular", "radial"])
+def test_a_zone_across_a_step_sees_what_is_in_front_and_what_is_behind(distance: str):
+    column = 3
+    model = SensorModel(distance=distance)  # type: ignore[arg-type]
+    edge = (column - 4 + 0.6) / model.focal_length
+    rays = ZoneRays(rig(model))
+    hits = PieceCaster({1: wall(1.0, -9.0, edge), 2: wall(2.0)}).cast(
+        *rays.in_fixed(np.eye(4)[None])
+    )
+    edges, seen = rays.edges(hits), rays.seen(hits)
+    assert edges.step[0, :, column].all()
+    assert edges.step.sum() == 8
+    assert (edges.front.piece[edges.step] == 1).all()
+    assert (edges.behind.piece[edges.step] == 2).all()
+    front, behind = edges.front.distance[edges.step], edges.behind.distance[edges.step]
+    lengths = np.linalg.norm(SensorModel().directions, axis=-1)[:, column]
+    scale = lengths if distance == "radial" else np.ones(8)
+    # Some rays meet the side of the plate in front, which is 0.1 m thick.
+    assert front == pytest.approx(1.0 * scale, rel=0.04)
+    assert behind == pytest.approx(2.0 * scale, rel=0.04)
+    assert (seen.piece[edges.step] == 1).all()
+
+
+def test_a_small_step_is_none():
+    rays = ZoneRays(rig(SensorModel()))
+    pieces = {1: wall(1.0, -9.0, -0.06), 2: wall(1.5)}
+    hits = PieceCaster(pieces).cast(*rays.in_fixed(np.eye(4)[None]))
+    assert not rays.edges(hits).step.any()

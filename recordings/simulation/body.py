@@ -1,0 +1,88 @@
+"""What the sensors can see: meshes with a surface, at rest or moving."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import trimesh
+from numpy.typing import NDArray
+
+from recordings.simulation.motion import Motion
+from recordings.simulation.surface import Surface
+from robot_assets import Transform
+
+SURROUNDINGS, TARGET, OWN_ROBOT, SECOND_ROBOT, FURTHER = 0, 1, 2, 3, 32
+"""Numbers of objects in the truth.
+
+The links of the second robot follow from SECOND_ROBOT on, objects that move besides the target,
+such as its limbs, from FURTHER on.
+"""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Something that never moves.
+
+    Attributes:
+        mesh: in the fixed frame, metres.
+        surface: of it.
+    """
+
+    mesh: trimesh.Trimesh
+    surface: Surface
+
+
+@dataclass(frozen=True)
+class Body:
+    """Something that may move: a mesh at a pose, and how the pose changes.
+
+    Attributes:
+        number: of its object in the truth.
+        mesh: in its own frame, metres.
+        surface: of it.
+        T_fixed_body: (4, 4).
+        rate: (4, 4), the derivative of T_fixed_body.
+    """
+
+    number: int
+    mesh: trimesh.Trimesh
+    surface: Surface
+    T_fixed_body: Transform
+    rate: Transform
+
+    @property
+    def turn_rate(self) -> NDArray[np.float64]:
+        """Turn rate (3,) in rad/s, in the axes of the fixed frame."""
+        spin = self.rate[:3, :3] @ self.T_fixed_body[:3, :3].T
+        return np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+
+    def placed(self) -> trimesh.Trimesh:
+        """The mesh in the fixed frame."""
+        return self.mesh.copy().apply_transform(self.T_fixed_body)
+
+    def velocity(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Velocity (N, 3) m/s of points (N, 3) of the body, in the fixed frame."""
+        R, t = self.T_fixed_body[:3, :3], self.T_fixed_body[:3, 3]
+        in_body = (points - t) @ R
+        return in_body @ self.rate[:3, :3].T + self.rate[:3, 3]
+
+
+@dataclass(frozen=True)
+class Actor:
+    """A body with its motion over the whole recording.
+
+    Attributes:
+        number: of its object in the truth.
+        mesh: in its own frame, metres.
+        surface: of it.
+        motion: of its frame in the fixed frame.
+    """
+
+    number: int
+    mesh: trimesh.Trimesh
+    surface: Surface
+    motion: Motion
+
+    def at(self, time: float) -> Body:
+        """The body at `time`, seconds from the start of the recording."""
+        pose, rate = self.motion.pose(time), self.motion.rate(time)
+        return Body(self.number, self.mesh, self.surface, pose, rate)

@@ -1,0 +1,52 @@
+"""Simulated frames and files for tests."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from recordings import Frame
+from recordings.simulation import NOISE_MODELS, SCENARIOS, Scenario, simulate, write_simulation
+from robot_assets import load_rig, load_robot
+
+ROBOT, RIG = load_robot(), load_rig()
+
+
+def frames(
+    scenario: Scenario,
+    speed: float = 0.6,
+    trial: int = 1,
+    seed: int = 0,
+    noise: str = "none",
+    imperfections: Sequence[str] = (),
+) -> Iterator[Frame]:
+    return simulate(
+        scenario,
+        speed=speed,
+        trial=trial,
+        seed=seed,
+        noise=NOISE_MODELS[noise],
+        imperfections=imperfections,
+        robot=ROBOT,
+        rig=RIG,
+    )
+
+
+def written(
+    path: Path,
+    name: str,
+    speed: float | None = None,
+    noise: str = "none",
+    imperfections: Sequence[str] = (),
+) -> Path:
+    scenario = SCENARIOS[name]
+    write_simulation(
+        path,
+        scenario,
+        speed=scenario.speeds[-1] if speed is None else speed,
+        trial=1,
+        seed=0,
+        noise=NOISE_MODELS[noise],
+        imperfections=imperfections,
+        robot=ROBOT,
+        rig=RIG,
+    )
+    return path
