@@ -244,6 +244,7 @@ def _plan(options: argparse.Namespace) -> Plan:
                 "without --recordings."
             )
     wanted = {name: getattr(options, name) for name in given}
+    _check(wanted)
     return replace(
         plan,
         scenarios=_once(wanted.get("scenario", PAPER_SCENARIOS)),
@@ -254,6 +255,17 @@ def _plan(options: argparse.Namespace) -> Plan:
         imperfections=tuple(n for n in IMPERFECTIONS if n in wanted.get("imperfections", ())),
         ablation=wanted.get("ablation", False),
     )
+
+
+def _check(wanted: dict[str, Any]) -> None:
+    for speed in wanted.get("speed", ()):
+        if not speed > 0:
+            raise InputError(f"--speed must be above 0 m/s, got {speed:g}.")
+    for trial in wanted.get("trial", ()):
+        if trial < 1:
+            raise InputError(f"--trial must be 1 or more, got {trial}.")
+    if (seed := wanted.get("seed", 0)) < 0:
+        raise InputError(f"--seed must be 0 or more, got {seed}.")
 
 
 def _once(values: Iterable[_T]) -> tuple[_T, ...]:

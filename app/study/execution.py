@@ -66,7 +66,7 @@ def _on_dask(works: list[Work], address: str) -> Iterator[Outcome]:
             "--dask needs the package distributed: install it with pip install 'tofscope[dask]'."
         ) from error
     try:
-        client = Client(address, timeout=_PATIENCE, set_as_default=False)
+        client = Client(address, timeout=_PATIENCE)
     except (OSError, ValueError) as error:
         raise InputError(f"There is no Dask scheduler at {address}.") from error
     with client:

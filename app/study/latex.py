@@ -26,26 +26,29 @@ _SPECIAL = {
     "γ": r"$\gamma$",
     "δ": r"$\delta$",
 }
-_WIDE = 11  # columns, above which the smallest type is used
+LONGEST = 60
+"""Rows that fit onto a page; a longer table is no float."""
 
 
 def as_latex(table: Table, conditions: str) -> str:
-    r"""A `table*` that needs \usepackage{booktabs} alone, in ASCII.
+    r"""A `table*`, in ASCII, that needs \usepackage{booktabs} and \usepackage{graphicx}.
 
     Args:
-        table: what is shown.
-        conditions: a sentence that goes into the caption.
+        table: what is shown, of `LONGEST` rows at most.
+        conditions: a sentence that goes below the table, after its note.
     """
     alignment = "".join("r" if column.form else "l" for column in table.columns)
     body = [[shown(c, row[c.key]) for c in table.columns] for row in table.rows]
     lines = [
-        r"% Needs \usepackage{booktabs}.",
+        r"% Needs \usepackage{booktabs} and \usepackage{graphicx}.",
         r"\begin{table*}",
         r"\centering",
-        rf"\caption{{{escaped(f'{table.title}. {table.note} {conditions}')}}}",
+        rf"\caption{{{escaped(table.title)}}}",
         rf"\label{{tab:tofscope-{table.name.replace('_', '-')}}}",
-        r"\scriptsize" if len(table.columns) > _WIDE else r"\footnotesize",
+        r"\footnotesize",
         r"\setlength{\tabcolsep}{3pt}",
+        # Shrunk to the text's width where it is wider, else as it is.
+        r"\resizebox{\ifdim\width>\textwidth\textwidth\else\width\fi}{!}{%",
         rf"\begin{{tabular}}{{@{{}}{alignment}@{{}}}}",
         r"\toprule",
         *_group_lines(table),
@@ -55,12 +58,23 @@ def as_latex(table: Table, conditions: str) -> str:
     before = ""
     for row in body:
         first = row[0]
-        # A line between experiments, and each named once, as in the paper.
+        # A gap between experiments, and each named once, as in the paper.
         if before and first != before:
             lines.append(r"\addlinespace")
         lines.append(_line([first if first != before else "", *row[1:]]))
         before = first
-    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", r"\end{table*}", ""])
+    note = escaped(f"{table.note} {conditions}")
+    return "\n".join(
+        [
+            *lines,
+            r"\bottomrule",
+            r"\end{tabular}}",
+            r"\par\smallskip",
+            rf"\parbox{{\textwidth}}{{\scriptsize {note}}}",
+            r"\end{table*}",
+            "",
+        ]
+    )
 
 
 def _group_lines(table: Table) -> list[str]:

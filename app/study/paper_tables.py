@@ -35,12 +35,14 @@ _NOTE = (
 def paper_tables(plan: Plan, rows: list[Row]) -> tuple[Table, Table]:
     """Table I: the y-axis experiment; Table II: x-axis, and robot moving; with every method."""
     return (
-        _table(plan, rows, "table_1", "Table I: the y-axis experiment", ("towards",)),
+        _table(
+            plan, rows, "table_1", "The y-axis experiment, as in the paper's Table I", ("towards",)
+        ),
         _table(
             plan,
             rows,
             "table_2",
-            "Table II: the x-axis experiment, and the y-axis with both robots moving",
+            "The x-axis experiment, and both robots moving, as in the paper's Table II",
             ("sideways", "robot_moving"),
         ),
     )

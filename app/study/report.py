@@ -17,7 +17,7 @@ from app.study.further_tables import (
     recordings_table,
     sweep_table,
 )
-from app.study.latex import as_latex
+from app.study.latex import LONGEST, as_latex
 from app.study.paper import paper_numbers
 from app.study.paper_tables import paper_tables
 from app.study.plan import Plan
@@ -87,11 +87,11 @@ def write_report(study: Study, folder: Path) -> list[Table]:
         files |= {
             f"{_TABLES}/{table.name}.csv": as_csv(table).encode(),
             f"{_TABLES}/{table.name}.md": as_markdown(table, said).encode(),
-            f"{_TABLES}/{table.name}.tex": as_latex(table, said).encode(),
         }
-    files[f"{_TABLES}/tables.json"] = (
-        json.dumps(_as_json(study, tables), indent=1) + "\n"
-    ).encode()
+        if len(table.rows) <= LONGEST:
+            files[f"{_TABLES}/{table.name}.tex"] = as_latex(table, said).encode()
+    content = json.dumps(_as_json(study, tables), indent=1)
+    files[f"{_TABLES}/tables.json"] = f"{content}\n".encode()
     files |= {f"sweep.{ending}": content for ending, content in (figure or {}).items()}
     files[PAGE] = _page(study, tables, figure).encode()
     try:
@@ -130,7 +130,8 @@ def _page(study: Study, tables: Sequence[Table], figure: dict[str, bytes] | None
         shown = page.table(table)
         if table.name == "recordings" and plan.recordings is None:
             shown = page.folded(f"{len(table.rows)} lines", shown)
-        blocks = [shown, page.links([f"{_TABLES}/{table.name}.{e}" for e in ("csv", "md", "tex")])]
+        endings = ("csv", "md", "tex") if len(table.rows) <= LONGEST else ("csv", "md")
+        blocks = [shown, page.links([f"{_TABLES}/{table.name}.{e}" for e in endings])]
         if table.name == "sweep" and figure:
             picture = page.picture(figure["png"], "Error over n, a line for each speed")
             blocks = [picture, page.links(["sweep.png", "sweep.pdf"]), *blocks]

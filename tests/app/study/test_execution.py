@@ -1,19 +1,127 @@
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.errors import InputError
 from app.study.execution import outcomes
-from app.study.rows import rows_of
-from app.study.work import Ask, Simulated, Work
+from app.study.rows import Row, rows_of
+from app.study.work import Ask, Recorded, Simulated, Work, do
 from estimator import Parameters
+from tests.app.waiting import until
+
+ROOT = Path(__file__).parents[3]
+ASKS = (Ask(Parameters()), Ask(Parameters(method="baseline")))
+WORKS = [Work(Simulated("towards", 0.3, trial), ASKS) for trial in (1, 2)]
 
 
-def test_two_cores_give_what_one_gives():
-    parameters = (Parameters(), Parameters(method="baseline"))
-    works = [
-        Work(Simulated("towards", 0.3, trial), tuple(map(Ask, parameters))) for trial in (1, 2)
-    ]
+def rows(jobs: int, dask: str | None = None) -> list[Row]:
+    done = sorted(outcomes(WORKS, jobs, dask), key=lambda outcome: outcome.trial or 0)
+    assert [outcome.failure for outcome in done] == [None, None]
+    return rows_of(done)
 
-    def rows(jobs: int):
-        return sorted(rows_of(outcomes(works, jobs)), key=lambda row: (row.trial, row.parameters.n))
 
-    one = rows(1)
-    assert len(one) == 4
-    assert all(row.metrics["points_with_flow"] for row in one)
-    assert rows(2) == one
+@pytest.fixture(scope="module")
+def one_core() -> list[Row]:
+    found = rows(1)
+    assert len(found) == 4
+    assert all(row.metrics["points_with_flow"] for row in found)
+    return found
+
+
+@pytest.fixture
+def scheduler(tmp_path: Path) -> Iterator[str]:
+    """Address of a scheduler with two worker processes, started for the test."""
+    distributed = pytest.importorskip("distributed", reason="distributed is not installed")
+    file = tmp_path / "scheduler.json"
+    common = ["--scheduler-file", str(file), "--no-dashboard"]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    with ExitStack() as stack:
+
+        def start(*arguments: str) -> None:
+            process = stack.enter_context(
+                subprocess.Popen(
+                    [sys.executable, "-m", "dask", *arguments, *common],
+                    cwd=tmp_path,
+                    env=environment,
+                    stderr=subprocess.DEVNULL,
+                )
+            )
+            stack.callback(process.terminate)
+
+        start("scheduler", "--host", "127.0.0.1", "--port", "0")
+        until(file.exists)
+        for _ in range(2):
+            start("worker", "--nthreads", "1", "--no-nanny", "--host", "127.0.0.1")
+        address = json.loads(file.read_text())["address"]
+        with distributed.Client(address, set_as_default=False) as client:
+            client.wait_for_workers(2, timeout=120)
+        yield address
+
+
+def test_two_cores_give_what_one_gives(one_core: list[Row]):
+    assert rows(2) == one_core
+
+
+def test_a_dask_cluster_gives_what_one_core_gives(one_core: list[Row], scheduler: str):
+    assert rows(1, scheduler) == one_core
+
+
+def test_a_scheduler_that_is_not_there_is_said():
+    pytest.importorskip("distributed", reason="distributed is not installed")
+    with pytest.raises(InputError, match=r"no Dask scheduler at tcp://127\.0\.0\.1:9"):
+        list(outcomes(WORKS, 1, "tcp://127.0.0.1:9"))
+
+
+def test_without_distributed_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"tofscope\[dask\]"):
+        list(outcomes(WORKS, 1, "tcp://127.0.0.1:9"))
+
+
+def test_a_broken_recording_costs_only_itself(tmp_path: Path):
+    broken = tmp_path / "broken.mcap"
+    broken.write_bytes(b"nonsense")
+    works = [Work(Recorded(broken), ASKS), Work(Recorded(tmp_path / "absent.mcap"), ASKS)]
+    done = list(outcomes(works, 1))
+    assert [bool(outcome.failure) for outcome in done] == [True, True]
+    assert "not an MCAP file" in str(done[0].failure)
+
+
+def test_a_worker_of_another_version_is_refused():
+    outcome = do(WORKS[0], "another")
+    assert "another version" in str(outcome.failure)
+    assert not outcome.results
+
+
+def test_an_unforeseen_error_is_a_failure_of_that_recording(monkeypatch: pytest.MonkeyPatch):
+    def explode(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("oh")
+
+    monkeypatch.setattr("app.study.work.evaluate", explode)
+    (outcome,) = outcomes([replace(WORKS[0], asks=ASKS[:1])], 1)
+    assert outcome.failure == "towards_0.3_1: ZeroDivisionError: oh"
+
+
+def test_the_sweep_is_only_for_the_scenario_that_is_swept():
+    ten = Parameters(n=10)
+    work = Work(Simulated("towards", 0.3, 1), ASKS, sweep=(Parameters(), ten))
+    assert work.wanted("sideways") == ASKS
+    assert work.wanted("towards") == (*ASKS, Ask(ten, resting=False))
+
+
+def test_where_nothing_got_a_flow_it_is_said_what_became_of_what_moves():
+    far = (Ask(Parameters(n=10), resting=False),)
+    (outcome,) = outcomes([Work(Simulated("towards", 0.3, 1), far)], 1)
+    (result,) = outcome.results
+    assert result.metrics is not None
+    assert result.metrics["pairs"] == 5
+    assert result.metrics["points_with_flow"] == 0
+    assert result.metrics["angle_deg"] is None
+    assert "moving points: Unassigned" in str(result.why)

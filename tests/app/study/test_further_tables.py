@@ -1,0 +1,81 @@
+from dataclasses import replace
+
+import pytest
+
+from app.evaluation import COLUMNS
+from app.study.further_tables import (
+    ablation_table,
+    metrics_table,
+    recordings_table,
+    sweep_table,
+)
+from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
+from tests.app.study.made import PLAN, good, made
+
+
+def test_sweep_is_error_as_a_share_of_the_target_speed():
+    rows = [
+        made(trial=1, n=8, metrics=good(6.0, 0.03)),
+        made(trial=2, n=8, metrics=good(6.0, 0.06)),
+        made(trial=1, n=10),
+        made(speed=0.15, n=8, metrics=good(6.0, 0.03)),
+    ]
+    table = sweep_table(replace(PLAN, methods=("paper",)), rows)
+    assert table is not None
+    by_n = {row["n"]: row for row in table.rows}
+    assert list(by_n) == [1, 8, 10]
+    assert by_n[8]["error_percent_0.30"] == pytest.approx(15.0)
+    assert by_n[8]["error_percent_0.15"] == pytest.approx(20.0)
+    assert by_n[8]["trials_0.30"] == "2/2"
+    assert by_n[10]["error_percent_0.30"] is None
+    assert (by_n[10]["coverage_0.30"], by_n[10]["trials_0.30"]) == (0.0, "0/1")
+    assert [title for title, _ in table.groups] == ["", "", "0.15 m/s", "0.30 m/s"]
+
+
+def test_without_recordings_of_the_swept_scenario_there_is_no_sweep():
+    assert sweep_table(PLAN, [made("sideways", metrics=good(1.0, 0.1))]) is None
+    assert sweep_table(replace(PLAN, sweep=()), [made(metrics=good(1.0, 0.1))]) is None
+
+
+def test_metrics_are_all_that_evaluate_knows_and_sums_where_they_count():
+    rows = [made(trial=trial, metrics=good(6.0, 0.03)) for trial in (1, 2)]
+    table = metrics_table(replace(PLAN, methods=("paper",)), rows)
+    (line,) = table.rows
+    assert set(line) == {"experiment", "speed", *COLUMNS} - {"angle_deg", "velocity_error"}
+    assert (line["pairs"], line["points_with_flow"]) == (14, 200)
+    assert line["epe3d"] == pytest.approx(0.01)
+    assert line["dynamic_iou"] is None
+
+
+def test_ablation_has_a_line_per_noise_model_imperfection_and_method():
+    plan = replace(PLAN, ablation=True)
+    rows = [
+        made(speed=0.15, noise="paper", metrics=good(6.0, 0.03)),
+        made(speed=0.15, noise="none", metrics=good(3.0, 0.01)),
+        made(speed=0.15, imperfections=("bias",), metrics=good(9.0, 0.05)),
+    ]
+    table = ablation_table(plan, rows)
+    assert table is not None
+    assert len(table.rows) == 2 * (len(NOISE_MODELS) + len(IMPERFECTIONS))
+    angles = {
+        (row["noise"], row["imperfection"]): row["angle_deg"]
+        for row in table.rows
+        if row["method"] == "paper"
+    }
+    assert angles["paper", "none"] == 6.0
+    assert angles["none", "none"] == 3.0
+    assert angles["paper", "bias"] == 9.0
+    assert ablation_table(PLAN, rows) is None
+
+
+def test_recordings_have_a_line_each_per_method():
+    rows = [
+        made(metrics=good(6.0, 0.03)),
+        made(method="baseline", metrics=good(80.0, 0.2)),
+        made(n=10, metrics=good(5.0, 0.02)),
+    ]
+    table = recordings_table(PLAN, rows)
+    assert [(row["recording"], row["method"], row["angle_deg"]) for row in table.rows] == [
+        ("towards_0.3_1", "paper", 6.0),
+        ("towards_0.3_1", "baseline", 80.0),
+    ]

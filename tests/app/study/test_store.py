@@ -1,0 +1,96 @@
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.errors import InputError
+from app.study.store import Store
+from app.study.work import Ask, Outcome, Recorded, Result, Simulated, Work
+from estimator import Parameters
+
+SOURCE = Simulated("towards", 0.3, 1)
+EIGHT, TEN = Parameters(), Parameters(n=10)
+
+
+def finished(source: Simulated | Recorded, *asks: Ask, scenario: str = "towards") -> Outcome:
+    results = tuple(Result(ask, {"pairs": 7, "angle_deg": 0.1 + 0.2}, 1.5, "why") for ask in asks)
+    return Outcome(source, scenario, 0.3, 1, "paper", 37, 2.0, results, ("a warning",))
+
+
+def test_what_is_kept_comes_back_as_it_was(tmp_path: Path):
+    outcome = finished(SOURCE, Ask(EIGHT), Ask(TEN, resting=False))
+    work = Work(SOURCE, (Ask(EIGHT),), sweep=(EIGHT, TEN))
+    Store(tmp_path, "ours").keep(outcome)
+    store = Store(tmp_path, "ours")
+    assert store.finished(work) == outcome
+    assert store.missing(work) is None
+
+
+def test_only_what_is_new_is_left_to_do(tmp_path: Path):
+    store = Store(tmp_path, "ours")
+    store.keep(finished(SOURCE, Ask(EIGHT)))
+    more = Work(SOURCE, (Ask(EIGHT), Ask(replace(EIGHT, method="baseline"))))
+    left = store.missing(more)
+    assert left is not None
+    assert [ask.parameters.method for ask in left.asks] == ["baseline"]
+    store.keep(finished(SOURCE, *left.asks))
+    assert store.missing(more) is None
+    # A sweep's estimate has no false flow, and is none for a table.
+    store.keep(finished(SOURCE, Ask(TEN, resting=False)))
+    assert store.missing(Work(SOURCE, (Ask(TEN),))) is not None
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        replace(SOURCE, scenario="sideways"),
+        replace(SOURCE, speed=0.2),
+        replace(SOURCE, trial=2),
+        replace(SOURCE, seed=1),
+        replace(SOURCE, noise="none"),
+        replace(SOURCE, imperfections=("bias",)),
+    ],
+)
+def test_results_of_one_recording_are_not_those_of_another(tmp_path: Path, other: Simulated):
+    store = Store(tmp_path, "ours")
+    store.keep(finished(SOURCE, Ask(EIGHT)))
+    assert store.finished(Work(other, (Ask(EIGHT),))) is None
+
+
+def test_another_version_computes_again(tmp_path: Path):
+    Store(tmp_path, "ours").keep(finished(SOURCE, Ask(EIGHT)))
+    assert Store(tmp_path, "newer").finished(Work(SOURCE, (Ask(EIGHT),))) is None
+
+
+def test_a_file_is_known_by_its_content_and_by_how_it_is_opened(tmp_path: Path):
+    file, rig = tmp_path / "a.mcap", tmp_path / "rig.toml"
+    file.write_bytes(b"one")
+    rig.write_bytes(b"one")
+    source = Recorded(file, rig=rig)
+    store = Store(tmp_path / "results", "ours")
+    store.keep(finished(source, Ask(EIGHT)))
+    assert store.finished(Work(source, (Ask(EIGHT),)))
+    assert not store.finished(Work(replace(source, truth_frame="panel"), (Ask(EIGHT),)))
+    rig.write_bytes(b"two")
+    assert not store.finished(Work(source, (Ask(EIGHT),)))
+    rig.write_bytes(b"one")
+    assert store.finished(Work(source, (Ask(EIGHT),)))
+    file.write_bytes(b"two")
+    assert not store.finished(Work(source, (Ask(EIGHT),)))
+
+
+def test_half_a_file_is_computed_again_and_a_failure_is_not_kept(tmp_path: Path):
+    store = Store(tmp_path, "ours")
+    work = Work(SOURCE, (Ask(EIGHT),))
+    store.keep(Outcome(SOURCE, failure="It broke."))
+    assert store.missing(work) == work
+    store.keep(finished(SOURCE, Ask(EIGHT)))
+    (path,) = tmp_path.glob("*.json")
+    path.write_text(path.read_text()[:100])
+    assert store.missing(work) == work
+
+
+def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="cannot be made"):
+        Store(tmp_path / "file" / "results", "ours")
