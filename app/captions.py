@@ -3,18 +3,25 @@
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
+from types import MappingProxyType
 
 from estimator import Parameters
 from recordings import Recording
 
 
-def caption(recording: Recording, parameters: Parameters, frame: int | None) -> Mapping[str, str]:
+def caption(
+    recording: Recording,
+    parameters: Parameters,
+    frame: int | None,
+    sides: Mapping[str, Parameters] = MappingProxyType({}),
+) -> Mapping[str, str]:
     """{what: value}, in the order in which people read it.
 
     Args:
         recording: what was seen.
         parameters: of the estimate; JSON that --parameters takes again.
         frame: k, None where a file holds many.
+        sides: {A or B: its parameters} where the flow of both is drawn.
     """
     said = {"Recording": recording.name, "Data": origin(recording)}
     if frame is not None:
@@ -23,6 +30,8 @@ def caption(recording: Recording, parameters: Parameters, frame: int | None) -> 
     said["Fixed frame"] = recording.fixed_frame
     said["Method"] = parameters.method
     said["Parameters"] = json.dumps(asdict(parameters))
+    for side, its_parameters in sides.items():
+        said[f"Parameters of {side}"] = json.dumps(asdict(its_parameters))
     return said
 
 

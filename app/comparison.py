@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 from typing import TypeVar
 
+from app.comparison_sides import A, B
 from app.estimates import Estimates, Pair
 from app.library import Opened
 from estimator import Parameters
 
 T = TypeVar("T")
-
-A, B = "A", "B"
 
 
 @dataclass(frozen=True)
@@ -30,6 +29,11 @@ class Comparison:
         """The other one edited, instead of the one that is `edited` now."""
         return Comparison(edited, B if self.edited == A else A, self.both)
 
+    def drawn(self, edited: Parameters) -> dict[str, Parameters]:
+        """{A or B: its parameters} where the flow of both is drawn, else nothing."""
+        of_a, of_b = self.in_order(edited, self.other)
+        return {A: of_a, B: of_b} if self.both else {}
+
     def in_order(self, edited: T, other: T) -> tuple[T, T]:
         """What belongs to A, and what belongs to B."""
         return (edited, other) if self.edited == A else (other, edited)
@@ -42,13 +46,13 @@ class Compared:
     Attributes:
         pair: with the edited parameters.
         other: with the other ones, None unless its estimate is wanted or known.
-        drawn: what is drawn first, and what is drawn with it.
+        second: the other pair where its flow is drawn too.
         problem: what went wrong in an estimate; its pair has no flow then.
     """
 
     pair: Pair
     other: Pair | None
-    drawn: tuple[Pair, Pair | None]
+    second: Pair | None
     problem: Exception | None
 
 
@@ -62,12 +66,12 @@ def compared(
     """Estimate what is shown of a frame; what is not shown is looked up, not estimated."""
     pair, problem = _estimated(estimates, opened, frame, parameters)
     if comparison is None:
-        return Compared(pair, None, (pair, None), problem)
+        return Compared(pair, None, None, problem)
     if not comparison.both:
         known = estimates.known(opened, frame, comparison.other)
-        return Compared(pair, known, (pair, None), problem)
+        return Compared(pair, known, None, problem)
     other, failed = _estimated(estimates, opened, frame, comparison.other)
-    return Compared(pair, other, comparison.in_order(pair, other), problem or failed)
+    return Compared(pair, other, other, problem or failed)
 
 
 def _estimated(

@@ -26,6 +26,7 @@ class Framing:
     def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
         self._client, self._scene = client, scene
         self._waiting: Camera | None = None
+        self._blank = False
         self._taken: tuple[str, float, Camera] | None = None
 
     @property
@@ -41,6 +42,7 @@ class Framing:
     def begin(self, pair: Pair) -> None:
         """Put the camera to the first view of a recording."""
         waiting, self._waiting = self._waiting, None
+        self._blank = waiting is None and len(pair.target.points) == 0
         if waiting:
             self._taken = None
             self._scene.stand(waiting)
@@ -51,6 +53,11 @@ class Framing:
         """Put the camera to the view of this name."""
         aspect = self.aspect
         self._taken = (view, aspect, self._scene.place_camera(pair, view, aspect))
+
+    def seen(self, pair: Pair) -> None:
+        """Take the first view anew, now that there is something to see, where there was nothing."""
+        if self._blank and len(pair.target.points):
+            self.begin(pair)
 
     def follow(self, pair: Pair) -> None:
         """Take the view anew where the picture has another shape than when it was taken."""

@@ -18,22 +18,24 @@ _ENOUGH = 20  # moving points that tell something
 def telling_frame(opened: Opened, parameters: Parameters, estimates: Estimates) -> int:
     """A frame with flow, as near to the middle of the motion as there is one among a few.
 
+    Where none of them has flow, the one in which most is seen.
+
     Args:
         opened: the recording.
         parameters: of the estimate.
         estimates: computes and remembers.
     """
     tried = candidates(opened.recording, parameters.n)
-    best, most = tried[0], 0
+    best, most, seen = tried[0], 0, 0
     end = time.monotonic() + _SECONDS
     for frame in tried:
         try:
-            flow = estimates.estimated(opened, frame, parameters).flow
+            pair = estimates.estimated(opened, frame, parameters)
         except Exception:
             continue  # what is wrong with a frame is told when it is shown
-        moving = int(flow.moving.sum()) if flow else 0
-        if moving > most:
-            best, most = frame, moving
+        moving = int(pair.flow.moving.sum()) if pair.flow else 0
+        if (moving, len(pair.target.points)) > (most, seen):
+            best, most, seen = frame, moving, len(pair.target.points)
         if most >= _ENOUGH or time.monotonic() > end:
             break
     return best

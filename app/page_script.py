@@ -33,8 +33,11 @@ if (!window.tofscopeEdge) {
 }
 """
 
-_HEIGHT = "canvas-height"
-_CANVAS = "document.querySelector('canvas[data-engine]')"
+_SIZE = "canvas-size"
+_SIZE_TO_STORAGE = f"""
+const canvas = document.querySelector("canvas[data-engine]");
+localStorage.setItem("viser-user:{_SIZE}", `${{canvas.clientWidth}} ${{canvas.clientHeight}}`);
+"""
 
 # A server never learns the address of viser's page; what its storage holds it may ask for. The
 # address is cleaned, so that a reload comes back to what was shown last and not to the link.
@@ -47,6 +50,15 @@ if (link !== null) {{
   query.delete("{_LINK}");
   history.replaceState(null, "", location.pathname + (query.size ? "?" + query : ""));
 }}
+"""
+
+# A browser's storage is shared by its tabs, and each of them is a session of its own.
+_TOKEN = "session"
+_TOKEN_TO_STORAGE = f"""
+localStorage.setItem("viser-user:{_TOKEN}", sessionStorage.getItem("tofscope-{_TOKEN}") ?? "");
+"""
+_KEEP_TOKEN = f"""
+sessionStorage.setItem("tofscope-{_TOKEN}", "%s");
 """
 
 # Browsers open the clipboard to pages of this machine and of https alone.
@@ -76,6 +88,22 @@ def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
     return token
 
 
+def take_token(client: viser.ClientHandle, timeout: float) -> str | None:
+    """What `keep_token` left in this tab, None where it left nothing.
+
+    Raises:
+        RuntimeError: the client has gone, or its browser stores nothing.
+        TimeoutError: it has not answered within `timeout` seconds.
+    """
+    run(client, _TOKEN_TO_STORAGE)
+    return client.local_storage.get_item(_TOKEN, timeout=timeout) or None
+
+
+def keep_token(client: viser.ClientHandle, token: str) -> None:
+    """Leave a token in this tab, where it is found when the page is loaded again."""
+    run(client, _KEEP_TOKEN % token)
+
+
 def copy_link(client: viser.ClientHandle, token: str) -> None:
     """Put the page's address with this token into the clipboard, or show it."""
     run(client, _COPY_LINK % (_LINK, token))
@@ -91,14 +119,15 @@ def run(client: viser.ClientHandle, script: str) -> None:
     client.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
 
 
-def canvas_height(client: viser.ClientHandle) -> float:
-    """Height of the scene in the page in CSS pixels, which viser does not tell.
+def canvas_size(client: viser.ClientHandle) -> tuple[int, int]:
+    """Width and height of the scene in the page in CSS pixels, which viser does not tell.
 
     What it tells are a screen's pixels: more on a fine screen, fewer on a slow machine.
     """
-    run(client, f"localStorage.setItem('viser-user:{_HEIGHT}', {_CANVAS}.clientHeight)")
+    run(client, _SIZE_TO_STORAGE)
     try:
-        told = client.local_storage.get_item(_HEIGHT, timeout=5.0)
-        return float(told) if told else float(client.camera.image_height)
+        told = client.local_storage.get_item(_SIZE, timeout=5.0)
+        width, height = (int(side) for side in (told or "").split())
     except (RuntimeError, TimeoutError, ValueError):
-        return float(client.camera.image_height)
+        width, height = client.camera.image_width, client.camera.image_height
+    return max(width, 1), max(height, 1)

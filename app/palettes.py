@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.colours import FIELD_OF_VIEW, FLOW, SOURCE, TARGET, TRUTH, Colour
+from app.comparison_sides import A
 
 PAPER, COLOUR_BLIND = "As in the paper", "Colour-blind safe"
 PALETTES = (PAPER, COLOUR_BLIND)
@@ -22,7 +23,7 @@ class Palette:
         unassigned: of source points of which nothing is known.
         target: of the target.
         flow: of arrows, and of the field of view of a sensor that sees something moving.
-        second: of the arrows of the second of two estimates that are drawn together.
+        second: of the arrows of B where A and B are drawn together; those of A are as `flow`.
         truth: of the truth's arrow.
         ghost: of the place where the truth says that a source point is now.
         field_of_view: of the sensors that see nothing moving.
@@ -45,6 +46,10 @@ class Palette:
     categories: tuple[Colour, ...]
     ramp: tuple[Colour, ...]
     light: float
+
+    def side(self, name: str) -> Colour:
+        """The colour of the flow of A or of B where both are drawn."""
+        return self.flow if name == A else self.second
 
     def category(self, index: int) -> Colour:
         """The colour of thing number `index`; they repeat."""

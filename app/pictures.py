@@ -14,6 +14,7 @@ from app.scene.legend import Legend
 
 _TEXT = 1 / 52  # height of the legend's text by the height of the picture
 _DARK_INK, _LIGHT_INK = (38, 40, 44, 255), (230, 231, 234, 255)
+_DARK_GROUND, _LIGHT_GROUND = (28, 29, 32, 205), (255, 255, 255, 217)
 
 
 def finished(
@@ -33,7 +34,7 @@ def finished(
         picture = ground
     if legend is not None:
         dark = legend.dark if background is None else sum(background) < 3 * 128
-        _draw_legend(picture, legend, _LIGHT_INK if dark else _DARK_INK)
+        _draw_legend(picture, legend, dark)
     return picture if background is None else picture.convert("RGB")
 
 
@@ -59,11 +60,24 @@ def png(picture: Image.Image, said: Mapping[str, str]) -> bytes:
     return data.getvalue()
 
 
-def _draw_legend(picture: Image.Image, legend: Legend, ink: tuple[int, int, int, int]) -> None:
+def _draw_legend(picture: Image.Image, legend: Legend, dark: bool) -> None:
     size = max(9, round(_TEXT * picture.height))
     font, draw = ImageFont.load_default(size), ImageDraw.Draw(picture)
     line, left, dot = round(1.5 * size), size, round(0.7 * size)
     top = picture.height - size - line * (len(legend.marks) + (legend.ramp is not None))
+    ink, ground = (_LIGHT_INK, _DARK_GROUND) if dark else (_DARK_INK, _LIGHT_GROUND)
+    widths = [1.7 * dot + draw.textlength(mark.text, font) for mark in legend.marks]
+    if legend.ramp is not None:
+        widths.append(9 * size + draw.textlength(legend.ramp.low + legend.ramp.high, font))
+    edge = left // 2
+    # Points behind the letters would run through them.
+    shade = Image.new("RGBA", picture.size)
+    ImageDraw.Draw(shade).rounded_rectangle(
+        (edge, top - edge, left + max(widths, default=0) + edge, picture.height - edge),
+        radius=edge,
+        fill=ground,
+    )
+    picture.alpha_composite(shade)
     for mark in legend.marks:
         middle = top + line / 2
         box = (left, middle - dot / 2, left + dot, middle + dot / 2)

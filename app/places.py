@@ -46,6 +46,7 @@ class Place:
         settings: of the drawing.
         comparison: with a second set of parameters, None where there is none.
         playback: how it is played, None for the whole recording at its own speed.
+        playing: whether it is.
     """
 
     label: str
@@ -55,6 +56,7 @@ class Place:
     settings: ViewSettings = field(default_factory=ViewSettings)
     comparison: Comparison | None = None
     playback: Playback | None = None
+    playing: bool = False
 
     def token(self) -> str:
         """What a link leads to, in letters that an address can hold.

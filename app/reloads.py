@@ -9,8 +9,8 @@ from app.places import Place
 class Reloads:
     """Keeps what ended sessions left, under tokens that browsers hold; the oldest are forgotten.
 
-    The browser keeps nothing but its token, so nothing that it sends has to be trusted, and a
-    second tab, which finds the token of a session that goes on, begins anew.
+    A tab keeps nothing but its token, so nothing that it sends has to be trusted, and the copy of
+    a tab, which finds the token of a session that goes on, begins anew.
     """
 
     def __init__(self, size: int = 64) -> None:

@@ -14,7 +14,7 @@ from app.estimates import Estimates
 from app.library import Library
 from app.mailbox import Mailbox
 from app.page import show_empty_page
-from app.page_script import take_link
+from app.page_script import keep_token, take_link, take_token
 from app.places import Place, from_token
 from app.reloads import Reloads
 from app.scene.settings import ViewSettings
@@ -24,7 +24,6 @@ from app.workbench import Workbench
 from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
-_TOKEN = "session"
 
 
 @dataclass(frozen=True)
@@ -110,18 +109,17 @@ class Session:
 
     def _arrive(self) -> tuple[str, Place | None]:
         """A token for this session, and the place to begin at: a link's, or where it was left."""
-        storage = self._client.local_storage
         token, place = str(uuid4()), None
         try:
             if link := take_link(self._client, timeout=2.0):
                 place = from_token(link)
             else:
-                place = self._shared.reloads.take(storage.get_item(_TOKEN, timeout=2.0))
+                place = self._shared.reloads.take(take_token(self._client, timeout=2.0))
         except (RuntimeError, TimeoutError):
             pass  # a browser that stores nothing begins anew
         except InputError as error:
             self._say(str(error))
-        storage.set_item(_TOKEN, token)
+        keep_token(self._client, token)
         return token, place
 
     def _serve(self, workbench: Workbench) -> None:

@@ -232,6 +232,7 @@ class Workbench:
             settings=self.settings,
             comparison=self.comparison,
             playback=self.playback,
+            playing=self._clock.playing,
         )
 
     def arrive(self, place: Place) -> None:
@@ -242,6 +243,8 @@ class Workbench:
             self._framing.stand(place.camera)
         if place.playback:
             self.change_playback(asdict(place.playback))
+        if place.playing:
+            self.toggle_play()
 
     def close(self) -> None:
         """Give back the recording."""
@@ -279,10 +282,12 @@ class Workbench:
         found = compared(self.estimates, opened, frame, parameters, comparison)
         self._pair, self._other = found.pair, found.other
         with self.client.atomic():
-            self._scene.show(*found.drawn)
+            self._scene.show(found.pair, found.second, comparison.edited if comparison else A)
             self._mark()
             if self._drawn is None or self._drawn[0] is not opened:
                 self._framing.begin(found.pair)
+            else:
+                self._framing.seen(found.pair)
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _VIEWS = ("3d", "top", "front", "robot", "fit")
 _COLOURS = ("paper", "colour-blind")
 _ARROWS = ("one", "speed", "direction", "cluster")
-_SIDE = (16, 7680)  # pixels
+_SIDE = (16, 4096)  # pixels; larger ones, drawn in software, take minutes
 
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
@@ -89,7 +89,10 @@ def run(options: argparse.Namespace) -> int:
 
     parameters = parameters_from(options)
     _check_flags(options)
-    _check_place(options.screenshot or options.html)
+    if options.screenshot:
+        _check_place(options.screenshot, ".png")
+    else:
+        _check_place(options.html, ".html")
     if options.path.is_dir():
         raise InputError(f"{options.path} is a folder; name one of the recordings in it.")
     library = Library([options.path], opening_from(options).open)
@@ -195,8 +198,10 @@ def _check_frame(opened: "Opened", frame: int) -> None:
         )
 
 
-def _check_place(path: Path) -> None:
+def _check_place(path: Path, ending: str) -> None:
     """Raise InputError where a file cannot be, before anything is computed for it."""
+    if path.suffix.lower() != ending and not path.is_dir():
+        raise InputError(f"{path} will not be known for what it is; let its name end in {ending}.")
     folder = path.absolute().parent
     if path.is_dir():
         raise InputError(f"{path} cannot be written: it is a folder.")

@@ -102,7 +102,10 @@ def _settled(
         try:
             pixels = photograph(client, scene, pair, view, framing.width, framing.height)
         except (RuntimeError, TimeoutError) as error:
-            raise InputError(f"Chromium gave no picture ({error}).") from error
+            raise InputError(
+                f"Chromium gave no picture of {framing.width} x {framing.height} ({error}); "
+                "try a smaller --size."
+            ) from error
         if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):
             return pixels
         before = pixels

@@ -9,6 +9,7 @@ from app import theme
 from app.captions import caption
 from app.errors import InputError
 from app.file_names import safe
+from app.page_script import canvas_size
 from app.panel import Desk, Panel
 from app.pictures import finished, png, side_by_side
 from app.scene.views import THREE_D, TOP
@@ -50,27 +51,34 @@ class TakeScreenshot(LatestWins):
         """
         if workbench.opened is None:
             return
-        camera = workbench.client.camera
-        size = self.size or (camera.image_width, camera.image_height)
+        size = self.size or canvas_size(workbench.client)
         width, height = (self.scale * pixels for pixels in size)
+        dark = workbench.settings.dark
         try:
+            if self.background == _WHITE:
+                # The colours for a dark background are too pale for a white one.
+                workbench.change_view({"dark": False})
             taken = [workbench.photograph(view, width, height) for view in self.views]
+            legends = [workbench.legend if self.legend else None] + [None] * len(taken)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
                 "The browser gave no picture; bring its tab to the front and try again, "
                 "or choose a smaller size."
             ) from error
+        finally:
+            workbench.change_view({"dark": dark})
         background = {
             _WHITE: (255, 255, 255),
             _TRANSPARENT: None,
-        }.get(self.background, theme.background(workbench.settings.dark))
-        legends = [workbench.legend if self.legend else None] + [None] * len(taken)
+        }.get(self.background, theme.background(dark))
         pictures = [
             finished(pixels, background, legend)
             for pixels, legend in zip(taken, legends, strict=False)
         ]
         recording = workbench.opened.recording
-        said = caption(recording, workbench.parameters, workbench.frame)
+        compared = workbench.comparison
+        sides = compared.drawn(workbench.parameters) if compared else {}
+        said = caption(recording, workbench.parameters, workbench.frame, sides)
         workbench.client.send_file_download(
             file_name(recording.name, workbench.frame, self.views),
             png(side_by_side(pictures), said),

@@ -7,6 +7,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from app.colours import Colour
 from app.palettes import Palette
 from app.scene.stage import FIXED
 
@@ -41,7 +42,6 @@ class CloudsView:
         """Draw what is of one colour in the colours of a palette."""
         self._target.colors = np.array(palette.target, dtype=np.uint8)
         self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
-        self._second_flow.colors = np.array(palette.second, dtype=np.uint8)
         self._truth.colors = np.array(palette.truth, dtype=np.uint8)
 
     def show_source(self, points: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
@@ -77,10 +77,15 @@ class CloudsView:
         self._flow.colors = colours[drawn]
 
     def show_second_flow(
-        self, points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
+        self,
+        points: NDArray[np.float64],
+        velocity: NDArray[np.float64],
+        seconds: float,
+        colour: Colour,
     ) -> None:
-        """Draw a second flow in a colour of its own; otherwise as `show_flow`."""
+        """Draw a second flow in one colour; otherwise as `show_flow`."""
         self._draw(self._second_flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
+        self._second_flow.colors = np.array(colour, dtype=np.uint8)
 
     def show_truth(
         self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float

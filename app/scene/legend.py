@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.colours import Colour
+from app.comparison_sides import A, B
 from app.estimates import Pair
 from app.scene.flow_colours import WHEEL
 from app.scene.settings import (
@@ -53,7 +54,7 @@ class Legend:
 
 
 def legend(
-    pair: Pair | None, settings: ViewSettings, speed_limit: float, second: Pair | None = None
+    pair: Pair | None, settings: ViewSettings, speed_limit: float, *, both: bool = False
 ) -> Legend:
     """The legend of a pair as it is drawn.
 
@@ -61,7 +62,7 @@ def legend(
         pair: what is drawn, None where nothing is.
         settings: of the drawing.
         speed_limit: m/s at the end of the ramp of speeds.
-        second: of the same frame with other parameters, whose flow is drawn too.
+        both: whether the flow of A and of B are drawn, one of which is the pair's.
     """
     palette, layers = settings.palette, settings.layers
     if pair is None:
@@ -78,11 +79,11 @@ def legend(
     if "Target" in layers:
         marks.append(Mark(palette.target, "Target"))
     ramp: Ramp | None = None
-    if "Flow" in layers and pair.flow is not None:
+    if "Flow" in layers and both:
+        marks += [Mark(palette.side(side), f"Flow of {side}") for side in (A, B)]
+    elif "Flow" in layers and pair.flow is not None:
         flow, ramp = _flow(pair, settings, speed_limit)
         marks += flow
-    if "Flow" in layers and second is not None and second.flow is not None:
-        marks.append(Mark(palette.second, "Flow of B"))
     if "Truth" in layers and pair.object_velocity is not None:
         marks.append(Mark(palette.truth, "True velocity"))
     if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:

@@ -6,7 +6,7 @@ import viser.transforms as vtf
 from numpy.typing import NDArray
 
 from app.estimates import Pair
-from app.page_script import canvas_height
+from app.page_script import canvas_size
 from app.scene.first_view import View
 from app.scene.scene import Scene
 
@@ -43,7 +43,7 @@ def photograph(
         placed, fov = scene.view(pair, view, width / height)
     wxyz = vtf.SO3.from_matrix(looking(placed)).wxyz
     # The page makes points as large as they have to be in its own window.
-    larger = height / canvas_height(client) * np.tan(camera.fov / 2) / np.tan(fov / 2)
+    larger = height / canvas_size(client)[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
 
     def render(height: int, width: int) -> NDArray[np.uint8]:
         return client.get_render(
@@ -56,7 +56,7 @@ def photograph(
             timeout=_TIMEOUT,
         )
 
-    with scene.posed(placed, fov, larger):
+    with scene.posed(placed, fov, larger, height):
         render(8, 8)  # sizes are taken over one image later than everything else
         return render(height, width)
 

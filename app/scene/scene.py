@@ -6,6 +6,7 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 
+from app.comparison_sides import A, B
 from app.estimates import Pair
 from app.places import Camera
 from app.scene.canvas import Canvas
@@ -28,8 +29,9 @@ from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
+from app.scene.truth import ghost, truth_arrow
 from app.scene.views import ROBOT, THREE_D, Film, named_view
-from estimator import MOVING_SPEED, ClusterResult, Label
+from estimator import ClusterResult, Label
 from recordings import Recording
 
 _NODES = {
@@ -50,8 +52,6 @@ _LABELS = {STATIONARY: Label.STATIONARY, UNASSIGNED: Label.UNASSIGNED}
 
 _REFERENCE_HEIGHT = 720  # pixels of the picture that sizes in pixels are meant for
 
-_ABOVE = 0.12  # metres from what moves to the truth's arrow
-
 
 class Scene:
     """Draws on a canvas. Everything is drawn by one thread.
@@ -69,6 +69,7 @@ class Scene:
         self._selection: SelectionView | None = None
         self._shown: Pair | None = None
         self._second: Pair | None = None
+        self._side = A
         self._turn = np.eye(3)
         self._speed_limit = 0.0
         self._stage = Stage(canvas.scene, settings.palette)
@@ -121,25 +122,29 @@ class Scene:
     @property
     def legend(self) -> Legend:
         """What the colours mean."""
-        return legend(self._shown, self._settings, self._speed_limit, self._second)
+        both = self._second is not None
+        return legend(self._shown, self._settings, self._speed_limit, both=both)
 
     @contextmanager
-    def posed(self, view: View, fov: float, larger: float) -> Iterator[None]:
+    def posed(self, view: View, fov: float, larger: float, height: int) -> Iterator[None]:
         """Draw in sizes that suit a picture, and as before afterwards.
 
         Args:
             view: where it is taken from.
             fov: vertical field of view, rad.
             larger: how many times larger points have to be told to the page.
+            height: of the picture, pixels.
         """
         lens, way = Lens.between(view.position, view.look_at, fov), view.look_at - view.position
-        self._clouds.fit(lens.height, larger * self._settings.point_size / _REFERENCE_HEIGHT)
+        self._size(lens, larger)
+        self._thicken(height / _REFERENCE_HEIGHT)
         try:
             eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
             # A picture that is asked for has no near plane of its own.
             with self._clouds.cleared(eye, forward / np.linalg.norm(forward), lens.near):
                 yield
         finally:
+            self._thicken(1.0)
             if self._lens:
                 self._fit(self._lens)
 
@@ -165,14 +170,15 @@ class Scene:
             self._lens = lens
             self._fit(lens)
 
-    def show(self, pair: Pair, second: Pair | None = None) -> None:
+    def show(self, pair: Pair, second: Pair | None = None, side: str = A) -> None:
         """Draw a pair; what has not changed since the last one is not sent again.
 
         Args:
             pair: to be drawn.
-            second: of the same frame, whose flow is drawn too, in a colour of its own.
+            second: of the same frame, whose flow is drawn too, each in a colour of its own.
+            side: which of A and B the first one is, where both are drawn.
         """
-        before, self._shown, self._second = self._shown, pair, second
+        before, self._shown, self._second, self._side = self._shown, pair, second, side
         if before is None or before.target is not pair.target:
             self._clouds.show_target(pair.target.points)
             if self._robot:
@@ -214,9 +220,19 @@ class Scene:
         # not send what it believes to be there: a value that nobody believes goes before.
         for near in (1.001 * lens.near, lens.near):
             self._canvas.camera.near = near
-        self._clouds.fit(lens.height, self._settings.point_size / _REFERENCE_HEIGHT)
+        self._size(lens, 1.0)
+
+    def _size(self, lens: Lens, larger: float) -> None:
+        self._clouds.fit(lens.height, larger * self._settings.point_size / _REFERENCE_HEIGHT)
         if self._selection:
             self._selection.set_point_size(self._clouds.radius)
+
+    def _thicken(self, factor: float) -> None:
+        """Draw lines this many times thicker: their thickness is one in pixels."""
+        if self._sensors:
+            self._sensors.thicken(factor)
+        if self._selection:
+            self._selection.thicken(factor)
 
     def _show_source(self, pair: Pair) -> None:
         """Draw the source in the colours of its labels, but for those that are switched off."""
@@ -236,7 +252,12 @@ class Scene:
         seconds, palette = self._settings.arrow_scale, self._settings.palette
         seeing: list[int] = []
         if pair.source and pair.flow:
-            colours = arrow_colours(pair, self._settings, self._speed_limit, self._turn)
+            if self._second is None:
+                colours = arrow_colours(pair, self._settings, self._speed_limit, self._turn)
+            else:
+                colours = np.tile(
+                    np.array(palette.side(self._side), np.uint8), (len(pair.flow.label), 1)
+                )
             self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds, colours)
             seeing = pair.source.sensor[pair.flow.label == Label.MOVING].tolist()
         else:
@@ -245,15 +266,15 @@ class Scene:
         if self._sensors:
             self._sensors.highlight(seeing, palette)
         self._show_second_flow(seconds)
-        self._clouds.show_truth(*_truth_arrow(pair, self._turn[2]), seconds)
-        self._clouds.show_ghost(_ghost(pair))
+        self._clouds.show_truth(*truth_arrow(pair, self._turn[2]), seconds)
+        self._clouds.show_ghost(ghost(pair))
 
     def _show_second_flow(self, seconds: float) -> None:
-        second, none = self._second, np.zeros((0, 3))
+        second, points, velocity = self._second, np.zeros((0, 3)), np.zeros((0, 3))
         if second and second.source and second.flow:
-            self._clouds.show_second_flow(second.source.points, second.flow.velocity, seconds)
-        else:
-            self._clouds.show_second_flow(none, none, seconds)
+            points, velocity = second.source.points, second.flow.velocity
+        colour = self._settings.palette.side(B if self._side == A else A)
+        self._clouds.show_second_flow(points, velocity, seconds, colour)
 
     def _show_layers(self) -> None:
         for layer, names in _NODES.items():
@@ -265,30 +286,3 @@ class Scene:
 def _camera(position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float) -> Camera:
     (x, y, z), (a, b, c) = position.tolist(), look_at.tolist()
     return Camera((x, y, z), (a, b, c), float(fov))
-
-
-def _truth_arrow(
-    pair: Pair, up: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Where the truth's arrow starts, just above what moves, and its velocity; (3,) each.
-
-    Args:
-        pair: whose truth it is.
-        up: unit vector in the fixed frame.
-    """
-    velocity = pair.object_velocity
-    if velocity is None or pair.source is None:
-        return np.zeros(3), None
-    points = pair.source.points[pair.truly_moving]
-    middle = np.median(points, axis=0)
-    above = float(np.percentile((points - middle) @ up, 80)) + _ABOVE
-    return middle + above * up, velocity
-
-
-def _ghost(pair: Pair) -> NDArray[np.float64]:
-    """Where the truth says that the moving source points are by now, (M, 3)."""
-    if pair.source is None or pair.truth is None or pair.truth.points is None:
-        return np.zeros((0, 3))
-    way = pair.interval * pair.truth.points
-    moving = np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
-    return pair.source.points[moving] + way[moving]

@@ -15,6 +15,7 @@ from estimator import ClusterResult
 PICKED_NODE = f"{FIXED}/picked"
 
 _LARGER = 1.5  # radius of a picked point, against that of the others
+_THICKNESS = 1.5  # pixels, of the box's lines
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
 _EDGES = np.array(
@@ -44,7 +45,7 @@ class SelectionView:
             f"{PICKED_NODE}/box",
             np.zeros((12, 2, 3)),
             PICKED,
-            thickness=1.5,
+            thickness=_THICKNESS,
             thickness_units="screen",
         )
         self._label = scene.add_label(f"{PICKED_NODE}/label", "", anchor="bottom-center")
@@ -67,6 +68,10 @@ class SelectionView:
         self._label.text = f"Cluster {cluster.index}: {cluster.label.name.lower()}"
         self._label.position = middle + (float(((points - middle) @ up).max()) + 2 * _MARGIN) * up
         self._frame.visible = True
+
+    def thicken(self, factor: float) -> None:
+        """Draw the box with lines this many times thicker."""
+        self._box.thickness = factor * _THICKNESS
 
     def set_point_size(self, metres: float) -> None:
         """Draw larger points than those of this radius."""

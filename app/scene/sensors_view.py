@@ -16,6 +16,7 @@ from recordings import RecordedSensor
 SENSORS = f"{FIXED}/sensors"
 FRUSTUMS = f"{FIXED}/frustums"
 _BODY = (0.018, 0.012, 0.010)  # metres, wide enough to be seen on the robot
+_THICKNESS, _SEEING = 1.0, 2.2  # pixels, of a frustum's lines, and where it sees something moving
 _DEPTH = 0.11  # metres from a sensor to the base of its frustum
 
 
@@ -26,6 +27,7 @@ class SensorsView:
         self._scene = scene
         self._sensors = tuple(sensors)
         self._ringed = False
+        self._thicker = 1.0
         self._bodies = [
             scene.add_frame(f"{SENSORS}/{s.name}", show_axes=False, visible=False) for s in sensors
         ]
@@ -54,7 +56,13 @@ class SensorsView:
         for index, frustum in enumerate(self._frustums):
             sees = index in seeing
             frustum.color = palette.flow if sees else palette.field_of_view
-            frustum.thickness = 2.2 if sees else 1.0
+            frustum.thickness = self._thicker * (_SEEING if sees else _THICKNESS)
+
+    def thicken(self, factor: float) -> None:
+        """Draw frustums with lines this many times thicker."""
+        for frustum in self._frustums:
+            frustum.thickness *= factor / self._thicker
+        self._thicker = factor
 
     def remove(self) -> None:
         """Take the sensors out of the scene."""
@@ -80,7 +88,7 @@ def _add_frustum(scene: viser.SceneApi, sensor: RecordedSensor) -> viser.CameraF
         aspect=half_width / half_height,
         # viser scales a frustum by its volume; this is what makes it _DEPTH long.
         scale=_DEPTH * float(np.cbrt(half_width * half_height / 3)),
-        thickness=1.0,
+        thickness=_THICKNESS,
         thickness_units="screen",
         color=FIELD_OF_VIEW,
         visible=False,

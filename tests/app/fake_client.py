@@ -3,6 +3,8 @@
 import asyncio
 import contextlib
 import io
+import json
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import SimpleNamespace
@@ -10,7 +12,12 @@ from typing import Any, cast
 
 import numpy as np
 import viser
-from viser._messages import CommandTriggerMessage, GuiUpdateMessage, ScenePointerMessage
+from viser._messages import (
+    CommandTriggerMessage,
+    GuiUpdateMessage,
+    RunJavascriptMessage,
+    ScenePointerMessage,
+)
 
 
 class FakeStorage:
@@ -48,14 +55,24 @@ class FakeClient:
         self.downloads: list[tuple[str, bytes]] = []
         self.render: Any = np.zeros((60, 80, 4), dtype=np.uint8)
         self.sent: list[Any] = []
+        self.legend = ""
         server._connected_clients[self.client_id] = cast(Any, self)
         queue = server._websock_server.queue_message
 
         def keep(message):
             self.sent.append(message)
+            if isinstance(message, RunJavascriptMessage):
+                self._run(message.source)
             queue(message)
 
         server._websock_server.queue_message = keep
+
+    def _run(self, script: str) -> None:
+        """What a browser makes of those scripts that the app hears of again."""
+        if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
+            self.local_storage.set_item(*kept.groups())
+        if legend := re.search(r"legend.innerHTML = (.*);", script):
+            self.legend = json.loads(legend[1])
 
     @classmethod
     @contextmanager

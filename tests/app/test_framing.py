@@ -8,7 +8,8 @@ from app.framing import Framing
 from app.places import Camera
 
 SOMEWHERE = Camera((5.0, 6.0, 7.0), (0.0, 0.0, 0.0), 0.7)
-PAIR = cast(Any, "a pair")
+PAIR = cast(Any, SimpleNamespace(target=SimpleNamespace(points=np.ones((5, 3)))))
+EMPTY = cast(Any, SimpleNamespace(target=SimpleNamespace(points=np.zeros((0, 3)))))
 
 
 class FakeScene:
@@ -56,6 +57,15 @@ def test_a_view_is_taken_anew_when_the_picture_gets_narrower(framing, scene, win
     window.image_width = 1200
     framing.follow(PAIR)
     assert scene.taken[-2:] == [("Top", 0.75), ("Top", 1.5)]
+
+
+def test_where_there_was_nothing_to_see_the_first_view_waits_for_something(framing, scene):
+    framing.begin(EMPTY)
+    framing.seen(EMPTY)
+    assert len(scene.taken) == 1
+    framing.seen(PAIR)
+    framing.seen(PAIR)
+    assert len(scene.taken) == 2
 
 
 def test_a_camera_that_a_person_has_moved_stays(framing, scene, window):

@@ -51,8 +51,11 @@ def test_the_legends_letters_can_be_read_on_every_background():
 
     assert letters((20, 20, 20), dark=False).max() > 200
     assert letters(WHITE, dark=True).min() < 60
-    assert letters(None, dark=True).max() > 200
-    assert letters(None, dark=False).max() < 60
+    for dark, ground in ((True, 28), (False, 255)):
+        clear = letters(None, dark=dark)
+        assert (clear[..., 0] == ground).mean() > 0.02  # the box behind them
+        assert clear[clear[..., 0] > 0].min() < 60
+        assert clear.max() > 200
 
 
 def test_the_file_says_what_it_shows():

@@ -9,6 +9,7 @@ from PIL import Image
 
 from app.estimates import Estimates
 from app.library import Library
+from app.palettes import PAPER, palette
 from app.parameter_files import from_text
 from app.reloads import Reloads
 from app.scene.stage import FIXED
@@ -251,6 +252,32 @@ def test_saved_parameters_are_those_in_use(session, client):
     assert from_text(content.decode(), name) == Parameters(delta=0.3)
 
 
+def test_a_white_picture_of_a_dark_page_has_the_colours_for_white(session, client):
+    client.change("Dark", True)
+    client.change("With legend", False)
+    client.change("Background", "White")
+    flow = f"{FIXED}/flow"
+    dark = palette(PAPER, dark=True).flow
+    until(lambda: tuple(client.node(flow).colors[0]) == dark)
+    seen = []
+
+    def render(height, width, **_):
+        seen.append(tuple(client.node(flow).colors[0]))
+        return np.zeros((height, width, 4), dtype=np.uint8)
+
+    client.get_render = render
+    client.press("Save screenshot")
+    until(lambda: client.downloads)
+    assert set(seen) == {palette(PAPER, dark=False).flow}
+    until(lambda: tuple(client.node(flow).colors[0]) == dark)
+    assert Image.open(io.BytesIO(client.downloads[0][1])).getpixel((5, 5)) == (255, 255, 255)
+    client.change("Background", "As on the screen")
+    client.press("Save screenshot")
+    until(lambda: len(client.downloads) == 2)
+    assert seen[-1] == dark
+    assert Image.open(io.BytesIO(client.downloads[1][1])).getpixel((5, 5)) == (20, 20, 20)
+
+
 def test_a_screenshot_that_fails_is_told(session, client):
     client.render = TimeoutError("no frame")
     client.press("Save screenshot")
@@ -347,11 +374,20 @@ def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
     until(lambda: client.control("γ").value == 0.7)
     until(lambda: arrow_count(client) == 0)
     client.press("Draw both")
-    # A's arrows are the first flow, whichever is edited.
-    until(lambda: arrow_count(client) == 100)
-    assert len(points(client, "second_flow")) == 0
-    client.change("δ", 0.05)
+    # Points and labels are those of the edited one, and each keeps its colour.
     until(lambda: len(points(client, "second_flow")) == 100)
+    assert arrow_count(client) == 0
+    client.change("δ", 0.05)
+    until(lambda: arrow_count(client) == 100)
+    colours = palette(PAPER, dark=False)
+    assert np.unique(client.node(f"{FIXED}/flow").colors, axis=0).tolist() == [list(colours.second)]
+    assert tuple(client.node(f"{FIXED}/second_flow").colors) == colours.flow
+    client.press("Save screenshot")
+    until(lambda: client.downloads)
+    said = Image.open(io.BytesIO(client.downloads[0][1])).info
+    assert from_text(said["Parameters of A"], "A") == Parameters(gamma=0.6)
+    assert from_text(said["Parameters of B"], "B") == Parameters(delta=0.05)
+    assert from_text(said["Parameters"], "") == Parameters(delta=0.05)
     client.change("Flow", False)
     until(lambda: not client.node(f"{FIXED}/second_flow").visible)
     client.press("Remove B")
@@ -394,7 +430,7 @@ def test_only_what_is_shown_is_estimated(session, client, runs):
     until(lambda: "not estimated here" not in client.text())
 
 
-def test_an_error_of_the_second_estimate_is_told_and_the_first_is_shown(session, client, runs):
+def test_an_error_of_one_estimate_is_told_and_the_other_is_shown(session, client, runs):
     client.press("Copy A to B")
     until(lambda: "<b>B</b> is shown" in client.text())
     client.press("Draw both")
@@ -402,4 +438,5 @@ def test_an_error_of_the_second_estimate_is_told_and_the_first_is_shown(session,
     runs.error = RuntimeError("B has had enough")
     client.change("δ", 0.05)
     until(lambda: any("B has had enough" in n for n in client.notifications))
-    assert arrow_count(client) == 100
+    assert len(points(client, "second_flow")) == 100
+    assert arrow_count(client) == 0

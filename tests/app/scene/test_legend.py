@@ -53,10 +53,14 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
 
 
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
-    marks = [mark.text for mark in legend(pair, ViewSettings(), 0.3, pair).marks]
-    assert marks.index("Flow of B") == marks.index("Flow: way in 0.5 s") + 1
+    colours = {
+        mark.text: mark.colour for mark in legend(pair, ViewSettings(), 0.3, both=True).marks
+    }
+    palette = ViewSettings().palette
+    assert (colours["Flow of A"], colours["Flow of B"]) == (palette.flow, palette.second)
+    assert "Flow: way in 0.5 s" not in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
-    assert "Flow of B" not in [mark.text for mark in legend(pair, hidden, 0.3, pair).marks]
+    assert "Flow of B" not in [mark.text for mark in legend(pair, hidden, 0.3, both=True).marks]
 
 
 def test_nothing_drawn_needs_no_legend():
@@ -67,5 +71,5 @@ def test_the_panel_shows_what_the_session_says(client):
     panel = LegendPanel(desk(client))
     state = shown(fake_opened())
     panel.show(type(state)(**{**vars(state), "legend": Legend((Mark((1, 2, 3), "a < b"),))}))
-    assert "a &lt; b" in client.text()
-    assert "#010203" in client.text()
+    assert "a &lt; b" in client.legend
+    assert "#010203" in client.legend

@@ -1,0 +1,36 @@
+"""What is drawn of the truth."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.estimates import Pair
+from estimator import MOVING_SPEED
+
+_ABOVE = 0.12  # metres from what moves to the truth's arrow
+
+
+def truth_arrow(
+    pair: Pair, up: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Where the truth's arrow starts, just above what moves, and its velocity; (3,) each.
+
+    Args:
+        pair: whose truth it is.
+        up: unit vector in the fixed frame.
+    """
+    velocity = pair.object_velocity
+    if velocity is None or pair.source is None:
+        return np.zeros(3), None
+    points = pair.source.points[pair.truly_moving]
+    middle = np.median(points, axis=0)
+    above = float(np.percentile((points - middle) @ up, 80)) + _ABOVE
+    return middle + above * up, velocity
+
+
+def ghost(pair: Pair) -> NDArray[np.float64]:
+    """Where the truth says that the moving source points are by now, (M, 3)."""
+    if pair.source is None or pair.truth is None or pair.truth.points is None:
+        return np.zeros((0, 3))
+    way = pair.interval * pair.truth.points
+    moving = np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
+    return pair.source.points[moving] + way[moving]
