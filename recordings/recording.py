@@ -146,7 +146,7 @@ class Recording:
     def truth(self, k: int) -> NDArray[np.float64] | None:
         """Velocity (3,) m/s of the moving object in the fixed frame, None where unknown.
 
-        With a truth frame, that of its origin.
+        That of the origin of its frame, where it turns or a truth frame is asked for.
         """
         k = self._checked(k)
         return self._parts.truth.at(k) if self._parts.truth else None
@@ -156,8 +156,9 @@ class Recording:
     ) -> NDArray[np.float64] | None:
         """Velocity (N, 3) m/s of each point of `cloud(k, max_range)`, zero where static.
 
-        With a truth frame every point is taken to move with it. None where the recording does not
-        tell; NaN for single points of which it does not.
+        With a truth frame, or where a pose is all there is of the truth, every point is taken to
+        move with it. None where the recording does not tell; NaN for single points of which it
+        does not.
         """
         cloud = self.cloud(k, max_range)
         if self._everything_moves and isinstance(self._parts.truth, RigidTruth):

@@ -34,6 +34,9 @@ def test_what_turns_is_followed_exactly_over_a_pair(tmp_path: Path, imperfection
         # The paper's errors compare every point with what turns.
         assert np.isfinite(truth.velocity).all()
         assert truth.velocity[moving] == pytest.approx(truth.points[moving])
+        arms = cloud.points[~moving, :2] - axis
+        exact = (arms @ turned.T - arms) / interval
+        assert truth.velocity[~moving, :2] == pytest.approx(exact, abs=5e-3)
         target = recording.truth(k)
         assert target is not None
         assert np.linalg.norm(target) == pytest.approx(0.30, abs=1e-6)
