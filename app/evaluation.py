@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from estimator import (
     SceneFlow,
     estimate_scene_flow,
 )
-from recordings import PairTruth, Recording
+from recordings import PairTruth, Recording, RecordingError
 
 COLUMNS = {
     "pairs": ("pairs", "d"),
@@ -39,19 +40,28 @@ def evaluate(
 ) -> Metrics | None:
     """Estimate every pair whose truth is known and pool the errors; None where there is no truth.
 
+    Pairs that do not count are left out where the file is broken at them.
+
     Args:
         recording: what is estimated.
         parameters: of the estimates.
         with_resting: whether pairs that do not count are estimated, too. Only `false_flow` needs
             them, and is NaN without; where the object rests for long, the rest is there sooner.
+
+    Raises:
+        RecordingError: the file is broken at a pair that counts.
     """
     if not recording.has_truth:
         return None
     errors = PooledErrors()
     counting = set(counting_pairs(recording, parameters.n))
     for pair in zip(range(len(recording)), range(parameters.n, len(recording)), strict=False):
-        if pair in counting or with_resting:
-            errors.include(_sums(recording, *pair, parameters, counts=pair in counting))
+        if pair in counting:
+            errors.include(_sums(recording, *pair, parameters, counts=True))
+        elif with_resting:
+            # A frame that is broken while nothing moves does not cost the errors.
+            with suppress(RecordingError):
+                errors.include(_sums(recording, *pair, parameters, counts=False))
     metrics = errors.metrics()
     return metrics if with_resting else replace(metrics, false_flow=math.nan)
 

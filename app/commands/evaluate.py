@@ -25,7 +25,6 @@ from estimator import Metrics, Parameters
 
 _MEANS = tuple(key for key in COLUMNS if key not in ("pairs", "points_with_flow"))
 _TITLES = [title.split() for title, _ in COLUMNS.values()]
-_NAME = 20  # columns for a recording's name
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
@@ -57,17 +56,19 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         _check_writable(options.json)
     rows: list[dict[str, Any]] = []
-    for line in _heading():
+    paths = recording_paths(options.paths)
+    table = _Table(max(20, *(len(path.stem) + 1 for path in paths)))  # names of means are longer
+    for line in table.heading():
         print(line)
-    for path in recording_paths(options.paths):
+    for path in paths:
         row, warnings = _row(path, opening, parameters)
         rows.append(row)
-        print(_line(path.stem, _cells(row)), flush=True)
+        print(table.line(path.stem, _cells(row)), flush=True)
         for warning in warnings:
             print(warning, file=sys.stderr)
     means = _means(rows)
     for mean in means:
-        print(_line(f"mean of {mean['scenario']}", _cells(mean)))
+        print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
     if options.json:
         _write(options.json, {"parameters": asdict(parameters), "recordings": rows, "means": means})
     return 0 if any(row["pairs"] is not None for row in rows) else 1
@@ -129,18 +130,24 @@ def _cells(row: dict[str, Any]) -> list[str]:
     ]
 
 
-def _heading() -> list[str]:
-    """The titles, a word a line, so that the table stays narrow; all end on the last line."""
-    lines = max(map(len, _TITLES))
-    above = [[""] * (lines - len(words)) + words for words in _TITLES]
-    cells = [[words[line] for words in above] for line in range(lines)]
-    return [_line("" if line < lines - 1 else "recording", cells[line]) for line in range(lines)]
+class _Table:
+    """Lines whose columns stand below each other; names have `width` characters."""
 
+    def __init__(self, width: int) -> None:
+        self._widths = [width, *(max(6, *map(len, words)) for words in _TITLES)]
 
-def _line(name: str, cells: list[str]) -> str:
-    widths = [max(6, *map(len, words)) for words in _TITLES]
-    aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
-    return "  ".join([name.ljust(_NAME), *aligned]).rstrip()
+    def heading(self) -> list[str]:
+        """The titles, a word a line, so that the table stays narrow; all end on the last line."""
+        height = max(map(len, _TITLES))
+        columns = [[""] * (height - len(words)) + words for words in _TITLES]
+        names = [""] * (height - 1) + ["recording"]
+        return [self.line(name, list(c)) for name, *c in zip(names, *columns, strict=True)]
+
+    def line(self, name: str, cells: list[str]) -> str:
+        """A line of the table."""
+        first, *widths = self._widths
+        aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
+        return "  ".join([name.ljust(first), *aligned]).rstrip()
 
 
 def _check_writable(path: Path) -> None:

@@ -1,4 +1,5 @@
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -6,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.command_line import main
+from app.evaluation import COLUMNS
 from tests.conftest import REPOSITORY
 from tests.estimator.judge import judge
 from tests.recordings.foreign import ForeignFile, image
@@ -102,6 +104,25 @@ def test_metrics_of_points_are_those_of_an_independent_implementation(
     expected = by_hand_of_every_point(room, **judged)
     assert row["pairs"] == 4
     assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-5)
+
+
+def test_columns_stand_below_their_titles_whatever_a_recording_is_called(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    write_room(tmp_path / "room.mcap", frames=9, tells_points=True)
+    write_room(tmp_path / "a_room_with_a_rather_long_name.mcap", frames=9, tells_points=True)
+    assert main(["evaluate", str(tmp_path)]) == 0
+    *above, titles, first, second = capsys.readouterr().out.splitlines()
+    assert [titles.split()[0], *(line.split()[0] for line in (first, second))] == [
+        "recording",
+        "a_room_with_a_rather_long_name",
+        "room",
+    ]
+    ends = [[m.end() for m in re.finditer(r"\S+", line)][1:] for line in (titles, first, second)]
+    assert ends[0] == ends[1] == ends[2]
+    assert len(ends[0]) == len(COLUMNS)
+    assert any("velocity" in line for line in above)
+    assert max(map(len, above)) <= len(titles) < 140
 
 
 def test_where_nothing_moves_the_false_flow_is_known_alone(

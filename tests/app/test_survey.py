@@ -7,7 +7,7 @@ from app.estimates import Estimates
 from app.evaluation import evaluate
 from app.survey import Survey, coarse_to_fine
 from estimator import Parameters
-from recordings import PairTruth, open_recording, sample_paths
+from recordings import PairTruth, RecordingError, open_recording, sample_paths
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
 
 
@@ -88,6 +88,26 @@ def test_pairs_that_do_not_count_can_be_left_out():
     assert np.isnan(metrics.false_flow)
     assert whole.false_flow == 0
     assert replace(metrics, false_flow=0.0) == whole
+
+
+@pytest.mark.parametrize(("broken", "counts"), [(3, False), (33, True)])
+def test_a_broken_frame_costs_the_errors_only_where_the_object_moves(broken: int, counts: bool):
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
+    whole = evaluate(fake, Parameters())
+    clouds = fake.cloud
+
+    def cloud(k, far):
+        if k == broken:
+            raise RecordingError("It is broken there.")
+        return clouds(k, far)
+
+    fake.cloud = cloud
+    if counts:
+        with pytest.raises(RecordingError):
+            evaluate(fake, Parameters())
+    else:
+        assert evaluate(fake, Parameters()) == whole
 
 
 def test_an_object_at_rest_has_a_true_speed_of_zero():
