@@ -53,7 +53,8 @@ def named_view(
     """
     points = pair.target.points @ R_drawing_fixed.T
     poses = pair.target.T_fixed_sensor
-    poses = poses[np.isfinite(poses).all(axis=(1, 2))]
+    placed = np.isfinite(poses).all(axis=(1, 2))
+    poses = poses[placed]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     axes = poses[:, :3, 2] @ R_drawing_fixed.T
     slanted = first_view(
@@ -61,7 +62,9 @@ def named_view(
     )
     moving = _moving(pair) @ R_drawing_fixed.T
     if name == ROBOT and len(sensors):
-        return _from_robot(points, sensors, axes, moving)
+        # Points come from sensors whose pose is known.
+        owner = (np.cumsum(placed) - 1)[pair.target.sensor]
+        return _from_robot(points, owner, sensors, axes, moving)
     if name == FIT:
         return _everything(points, sensors, film, before or slanted)
     box = np.vstack([*corners(points, sensors), *_spread(moving)])
@@ -90,24 +93,35 @@ def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _from_robot(
     points: NDArray[np.float64],
+    owner: NDArray[np.int64],
     sensors: NDArray[np.float64],
     axes: NDArray[np.float64],
     moving: NDArray[np.float64],
 ) -> View:
-    """From the sensor that looks most at what moves, or at what is nearest to the sensors."""
-    middle = sensors.mean(axis=0)
+    """From the sensor that looks most at what moves; else from the one that sees most, as it looks.
+
+    Args:
+        points: (N, 3) metres, the target.
+        owner: (N,) the sensor of each point, an index into the next two.
+        sensors: (S, 3) metres, where they are.
+        axes: (S, 3) unit vectors along which they look.
+        moving: (M, 3) metres, what moves.
+    """
     if len(moving):
         look_at = np.median(moving, axis=0)
-    elif len(points):
-        distance = np.linalg.norm(points - middle, axis=1)
-        look_at = np.median(points[distance <= np.quantile(distance, 0.1)], axis=0)
-    else:
-        look_at = middle + axes.mean(axis=0) + 1e-3
-    ways = look_at - sensors
-    best = int(np.argmax((axes * ways).sum(axis=1) / np.linalg.norm(ways, axis=1)))
-    if np.linalg.norm(ways[best]) < 0.1:
-        look_at = sensors[best] + 0.5 * axes[best]
-    return View(sensors[best] + 0.01 * axes[best], look_at)
+        ways = look_at - sensors
+        best = int(np.argmax((axes * ways).sum(axis=1) / np.linalg.norm(ways, axis=1)))
+        if np.linalg.norm(ways[best]) >= 0.1:
+            return View(sensors[best] + 0.01 * axes[best], look_at)
+    counts = np.bincount(owner, minlength=len(sensors))
+    depths = np.full(len(sensors), np.inf)
+    for sensor in np.flatnonzero(counts):
+        depths[sensor] = np.median(
+            np.linalg.norm(points[owner == sensor] - sensors[sensor], axis=1)
+        )
+    best = int(np.lexsort((depths, -counts))[0])
+    depth = max(depths[best], 0.5) if np.isfinite(depths[best]) else 0.5
+    return View(sensors[best] + 0.01 * axes[best], sensors[best] + depth * axes[best])
 
 
 def _everything(

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,16 @@ def test_fit_shows_everything_and_keeps_the_direction(pair):
     np.testing.assert_allclose(
         direction / np.linalg.norm(direction), kept / np.linalg.norm(kept), atol=1e-9
     )
+
+
+def test_from_the_robot_without_motion_the_sensor_that_sees_most_looks_along_its_axis(pair):
+    still = replace(pair, flow=None)
+    view = named_view(ROBOT, still, np.eye(3), FILM)
+    seen = np.bincount(pair.target.sensor)
+    sensor = pair.target.T_fixed_sensor[int(seen.argmax())]
+    np.testing.assert_allclose(view.position, sensor[:3, 3] + 0.01 * sensor[:3, 2])
+    way = view.look_at - view.position
+    np.testing.assert_allclose(way / np.linalg.norm(way), sensor[:3, 2], atol=1e-9)
 
 
 @pytest.mark.parametrize("name", [ROBOT, FIT])
