@@ -27,11 +27,11 @@ from recordings.simulation import (
     NOISE_MODELS,
     PAPER_SCENARIOS,
     SCENARIOS,
-    SPEEDS,
     TRIALS,
 )
 
 _T = TypeVar("_T")
+_ALL, _MORE = "all", "more"
 _SHOWN = ("table_1", "table_2")
 _OF_SIMULATION = ("scenario", "speed", "trial", "seed", "noise", "imperfections", "ablation")
 
@@ -93,12 +93,21 @@ def _add_sources(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--scenario",
         nargs="+",
-        choices=list(SCENARIOS),
+        choices=[*SCENARIOS, _ALL, _MORE],
         default=unset,
-        help=f"scenarios to simulate (default the paper's: {' '.join(PAPER_SCENARIOS)})",
+        metavar="SCENARIO",
+        help=(
+            f"scenarios to simulate, see tofscope simulate: {', '.join(SCENARIOS)}; {_ALL} (the "
+            f"default): the paper's {', '.join(PAPER_SCENARIOS)}; {_MORE}: the others"
+        ),
     )
     group.add_argument(
-        "--speed", nargs="+", type=float, default=unset, metavar="M/S", help="default the paper's"
+        "--speed",
+        nargs="+",
+        type=float,
+        default=unset,
+        metavar="M/S",
+        help="default each scenario's",
     )
     group.add_argument(
         "--trial", nargs="+", type=int, default=unset, metavar="NUMBER", help="default 1 to 5"
@@ -247,14 +256,19 @@ def _plan(options: argparse.Namespace) -> Plan:
     _check(wanted)
     return replace(
         plan,
-        scenarios=_once(wanted.get("scenario", PAPER_SCENARIOS)),
-        speeds=_once(wanted.get("speed", SPEEDS)),
+        scenarios=_scenarios(wanted.get("scenario", [_ALL])),
+        speeds=_once(wanted["speed"]) if "speed" in wanted else None,
         trials=_once(wanted.get("trial", TRIALS)),
         seed=wanted.get("seed", 0),
         noise=wanted.get("noise", "paper"),
         imperfections=tuple(n for n in IMPERFECTIONS if n in wanted.get("imperfections", ())),
         ablation=wanted.get("ablation", False),
     )
+
+
+def _scenarios(names: Iterable[str]) -> tuple[str, ...]:
+    groups = {_ALL: PAPER_SCENARIOS, _MORE: [n for n in SCENARIOS if n not in PAPER_SCENARIOS]}
+    return _once(member for name in names for member in groups.get(name, [name]))
 
 
 def _check(wanted: dict[str, Any]) -> None:

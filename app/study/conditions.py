@@ -39,17 +39,15 @@ def simulator_texts(plan: Plan) -> list[str]:
     ]
 
 
-def simulate_commands(plan: Plan) -> list[str]:
-    """The commands that make the study's recordings as files."""
-    also = ["--imperfections", *plan.imperfections] if plan.imperfections else []
-    return [
-        shlex.join(
-            [
-                *("tofscope", "simulate", *plan.scenarios),
-                *("--speed", *(f"{speed:g}" for speed in plan.speeds)),
-                *("--trial", *map(str, plan.trials)),
-                *("--seed", str(plan.seed), "--noise", plan.noise, *also),
-                *("--out", "recordings"),
-            ]
-        )
-    ]
+def simulate_command(plan: Plan) -> str:
+    """The command that makes the study's recordings as files."""
+    return shlex.join(
+        [
+            *("tofscope", "simulate", *plan.scenarios),
+            *(["--speed", *(f"{speed:g}" for speed in plan.speeds)] if plan.speeds else []),
+            *("--trial", *map(str, plan.trials)),
+            *("--seed", str(plan.seed), "--noise", plan.noise),
+            *(["--imperfections", *plan.imperfections] if plan.imperfections else []),
+            *("--out", "recordings"),
+        ]
+    )

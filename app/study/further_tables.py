@@ -1,5 +1,6 @@
 """What stands beside the paper's tables: the field's metrics, sweep, ablation, recordings."""
 
+from collections.abc import Iterable, Iterator
 from itertools import product
 
 from app.evaluation import COLUMNS
@@ -8,14 +9,66 @@ from app.study.plan import Plan
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
 from app.study.work import SWEPT_SCENARIO, Simulated
-from recordings.simulation import IMPERFECTIONS
+from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
 
 _COUNTS = ("pairs", "points_with_flow")
 _PAPERS = ("angle_deg", "velocity_error")
+_FOUND = ("coverage", "precision", "false_flow")
 _METRICS = {
     key: Column(key, title, "d" if key in _COUNTS else form)
     for key, (title, form) in COLUMNS.items()
 }
+
+
+def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
+    """The scenarios that are not the paper's; None where there are none."""
+    names = [
+        name
+        for name in dict.fromkeys(row.scenario for row in rows if row.scenario)
+        if name not in PAPER_SCENARIOS
+    ]
+    if not names:
+        return None
+    lines: list[dict[str, Value]] = []
+    for scenario, method in product(names, plan.methods):
+        for speed in speeds_of(rows, scenario):
+            here = cell(rows, scenario, method, speed, plan.parameters.n)
+            line: dict[str, Value] = {
+                "experiment": experiment_label(scenario, method),
+                "speed": speed,
+                "trials": f"{len(values(here, 'velocity_error'))}/{len(here)}",
+            }
+            for key in (*_PAPERS, *_FOUND):
+                line[key] = mean(here, key)
+                if key in _PAPERS:
+                    line[f"{key}_std"] = std(here, key)
+            lines.append(line)
+    texts = "; ".join(f"{name}: {SCENARIOS[name].text}" for name in names if name in SCENARIOS)
+    return Table(
+        "scenarios",
+        "Scenarios beyond the paper's",
+        "Means and sample deviations over trials. Angle deviation and velocity error compare every "
+        "flow with the velocity of the target alone, such as the hand of what turns, or the one in "
+        "front of two that cross; coverage, precision and false flow know what "
+        "every point does. Where nothing moves every flow is false, and only false flow (points "
+        "at rest that got a flow, of all at rest, over all pairs) is defined."
+        f"{f' {texts}.' if texts else ''}",
+        (
+            Column("experiment", "Scenario"),
+            Column("speed", "Speed (m/s)", ".2f"),
+            *_with_std(_PAPERS),
+            *(_METRICS[key] for key in _FOUND),
+            Column("trials", "Trials with a flow"),
+        ),
+        tuple(lines),
+    )
+
+
+def _with_std(keys: Iterable[str]) -> Iterator[Column]:
+    for key in keys:
+        yield _METRICS[key]
+        if key in _PAPERS:
+            yield Column(f"{key}_std", "std", COLUMNS[key][1])
 
 
 def metrics_table(plan: Plan, rows: list[Row]) -> Table:
@@ -115,11 +168,7 @@ def ablation_table(plan: Plan, rows: list[Row]) -> Table | None:
     assert isinstance(first, Simulated)
     trials = len({row.trial for row in rows})
     columns = [Column(key, key.capitalize()) for key in ("noise", "imperfection", "method")]
-    for key in COLUMNS:
-        if key not in _COUNTS:
-            columns.append(_METRICS[key])
-        if key in _PAPERS:
-            columns.append(Column(f"{key}_std", "std", COLUMNS[key][1]))
+    columns += _with_std(key for key in COLUMNS if key not in _COUNTS)
     return Table(
         "ablation",
         "What noise models and imperfections do to the errors",

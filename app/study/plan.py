@@ -6,14 +6,20 @@ from itertools import product
 
 from app.study.work import SWEPT_SCENARIO, Ask, Recorded, Simulated, Source, Work
 from estimator import Parameters
-from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, PAPER_SCENARIOS, SPEEDS, TRIALS
+from recordings.simulation import (
+    IMPERFECTIONS,
+    NOISE_MODELS,
+    PAPER_SCENARIOS,
+    SCENARIOS,
+    TRIALS,
+)
 
 SWEEP = tuple(range(1, 11))
 """The values of n that are tried."""
 METHODS = ("paper", "baseline")
 """The methods that the paper compares."""
 ABLATION_SPEED = 0.20
-"""m/s; the ablation runs at this speed alone, or at the first of a study without it."""
+"""m/s; the ablation runs at this speed alone, or at the first of those that are asked for."""
 _ABLATION_TRIALS = 3
 
 
@@ -25,7 +31,7 @@ class Plan:
         parameters: of every method; their own method is not used.
         methods: names, in the order of the tables.
         scenarios: names of those that are simulated.
-        speeds: m/s.
+        speeds: m/s, None for those of each scenario; where nothing moves it is 0 all the same.
         trials: numbers, from 1.
         sweep: values of n for the sweep, empty for none.
         seed: of the simulator.
@@ -38,7 +44,7 @@ class Plan:
     parameters: Parameters
     methods: tuple[str, ...] = METHODS
     scenarios: tuple[str, ...] = PAPER_SCENARIOS
-    speeds: tuple[float, ...] = SPEEDS
+    speeds: tuple[float, ...] | None = None
     trials: tuple[int, ...] = TRIALS
     sweep: tuple[int, ...] = SWEEP
     seed: int = 0
@@ -61,13 +67,15 @@ class Plan:
         if self.recordings is not None:
             return list(self.recordings)
         return [
-            Simulated(scenario, speed, trial, self.seed, self.noise, self.imperfections)
-            for scenario, speed, trial in product(self.scenarios, self.speeds, self.trials)
+            Simulated(name, speed, trial, self.seed, self.noise, self.imperfections)
+            for name in self.scenarios
+            for speed, trial in product(self._speeds(name), self.trials)
         ]
 
     def ablation_sources(self) -> list[Source]:
         """The recordings of the ablation, those of a condition beside each other."""
-        speed = ABLATION_SPEED if ABLATION_SPEED in self.speeds else self.speeds[0]
+        speeds = self._speeds(SWEPT_SCENARIO)
+        speed = ABLATION_SPEED if ABLATION_SPEED in speeds else speeds[0]
         return [
             Simulated(SWEPT_SCENARIO, speed, trial, self.seed, noise, imperfections)
             for noise, imperfections in self.conditions()
@@ -82,6 +90,10 @@ class Plan:
             *((noise, ()) for noise in NOISE_MODELS),
             *((self.noise, (name,)) for name in IMPERFECTIONS),
         ]
+
+    def _speeds(self, name: str) -> tuple[float, ...]:
+        scenario = SCENARIOS[name]
+        return scenario.speeds if scenario.still or not self.speeds else self.speeds
 
     def _parameters(self, values: Iterable[int]) -> tuple[Parameters, ...]:
         return tuple(

@@ -8,13 +8,14 @@ from typing import Any
 
 from app.errors import InputError
 from app.study import page
-from app.study.conditions import conditions, parameters_text, simulate_commands, simulator_texts
+from app.study.conditions import conditions, parameters_text, simulate_command, simulator_texts
 from app.study.figure import sweep_figure
 from app.study.findings import findings
 from app.study.further_tables import (
     ablation_table,
     metrics_table,
     recordings_table,
+    scenarios_table,
     sweep_table,
 )
 from app.study.latex import LONGEST, as_latex
@@ -66,6 +67,7 @@ class Study:
         plan, rows = self.plan, self.rows()
         tables = [
             *paper_tables(plan, rows),
+            scenarios_table(plan, rows),
             metrics_table(plan, rows),
             sweep_table(plan, rows),
             ablation_table(plan, self.ablation_rows()),
@@ -147,8 +149,9 @@ def _first(study: Study) -> page.Section:
         blocks.append(
             page.paragraph(
                 "Everything here is simulated: the paper's recordings are not public. These are "
-                f"{len(plan.sources())} recordings of its experiments, made by ray casting, with "
-                "a rig whose dimensions are ours, and the paper's own numbers beside them.",
+                f"{len(plan.sources())} recordings made by ray casting, as its experiments are "
+                "described, with a rig whose dimensions are ours; the paper's own numbers stand "
+                "beside.",
                 "simulated",
             )
         )
@@ -190,7 +193,7 @@ def _last(study: Study) -> page.Section:
     ]
     if plan.recordings is None:
         blocks.append(page.paragraph("The recordings, as files, are made by"))
-        blocks += [page.command(text) for text in simulate_commands(plan)]
+        blocks.append(page.command(simulate_command(plan)))
         again = "tofscope study --recordings recordings --out FOLDER"
         blocks.append(page.paragraph("and evaluated, with the parameters above, by"))
         blocks.append(page.command(again))
