@@ -149,11 +149,13 @@ class Estimates:
     def timeline(self, opened: Opened, parameters: Parameters) -> Timeline:
         """The recording at a glance; where there is no truth, what the known estimates say."""
         outline = self._outlines.get(opened.key, lambda: Outline(opened.recording))
-        known = [self._pairs.known((opened.key, k, parameters)) for k in range(outline.count)]
-        return outline.with_estimates(
-            [pair is not None and len(pair.target.points) == 0 for pair in known],
-            [pair is not None and pair.anything_moves for pair in known],
-        )
+        empty, moving = [False] * outline.count, [False] * outline.count
+        # A recording may have many more frames than are remembered.
+        for (key, k, values), pair in self._pairs.items():
+            if key == opened.key and values == parameters:
+                empty[k] = len(pair.target.points) == 0
+                moving[k] = pair.anything_moves
+        return outline.with_estimates(empty, moving)
 
     def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> _Prepared:
         key = (opened.key, k, parameters.n, parameters.max_range)

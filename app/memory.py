@@ -32,6 +32,12 @@ class Memory(Generic[K, V]):
             slot = self._slots.get(key)
         return slot.value if slot else None
 
+    def items(self) -> list[tuple[K, V]]:
+        """All keys and values that are remembered now."""
+        with self._lock:
+            slots = list(self._slots.items())
+        return [(key, slot.value) for key, slot in slots if slot.value is not None]
+
     def get(self, key: K, make: Callable[[], V]) -> V:
         """The value of `key`; `make` makes it where it is not remembered, and may raise."""
         with self._lock:

@@ -93,6 +93,7 @@ class PlaybackPanel(Panel):
             first, last = (int(frame) for frame in self._range.value)
             self._change(event, first=first, last=last)
 
+        self._followed: Playback | None = None
         add_commands(gui, post)
 
     def open(self, opened: Opened) -> None:
@@ -122,9 +123,12 @@ class PlaybackPanel(Panel):
         self._follow(shown.playback)
 
     def _follow(self, playback: Playback) -> None:
-        # Keys change speed and loop too; the range has no keys, and is left to its slider.
-        self._speed.value = speed_name(playback.speed)
-        self._loop.value = playback.loop
+        # Keys change speed and loop too; the range has no keys, and is left to its slider. What has
+        # not changed is not set: a person may be setting it at this very moment.
+        if playback != self._followed:
+            self._followed = playback
+            self._speed.value = speed_name(playback.speed)
+            self._loop.value = playback.loop
         if not self._arrived:
             self._arrived = True
             self._range.value = (playback.first, max(playback.last, 1))

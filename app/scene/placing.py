@@ -1,21 +1,26 @@
-"""Putting a node of the scene at a pose."""
+"""Putting nodes of the scene at their poses."""
+
+from collections.abc import Sequence
 
 import numpy as np
 import viser
 import viser.transforms as vtf
+from numpy.typing import NDArray
 
 from robot_assets import Transform
 
 UNKNOWN: Transform = np.full((4, 4), np.nan)
 
 
-def place(node: viser.SceneNodeHandle, pose: Transform) -> None:
-    """Move a node to `pose` (4, 4) in its parent's frame; viser sends only what has changed.
+def place(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) -> None:
+    """Move nodes to `poses` (S, 4, 4) in their parents' frames; viser sends only what has changed.
 
     A node whose pose is not known, NaN, is hidden.
     """
-    known = bool(np.isfinite(pose).all())
-    if known:
-        node.wxyz = vtf.SO3.from_matrix(pose[:3, :3]).wxyz
-        node.position = pose[:3, 3]
-    node.visible = known
+    known = np.isfinite(poses).all(axis=(1, 2))
+    turns = vtf.SO3.from_matrix(np.where(known[:, None, None], poses, np.eye(4))[:, :3, :3]).wxyz
+    for node, visible, wxyz, position in zip(nodes, known, turns, poses[:, :3, 3], strict=True):
+        if visible:
+            node.wxyz = wxyz
+            node.position = position
+        node.visible = bool(visible)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+import numpy as np
 import viser
 
 from app.scene.placing import UNKNOWN, place
@@ -27,8 +28,8 @@ class RobotView:
 
     def show(self, link_poses: Mapping[str, Transform]) -> None:
         """Move the links to their poses T_fixed_link; a link without one is hidden."""
-        for link, frame in self._links.items():
-            place(frame, link_poses.get(link, UNKNOWN))
+        poses = [link_poses.get(link, UNKNOWN) for link in self._links]
+        place(list(self._links.values()), np.array(poses).reshape(-1, 4, 4))
 
     def remove(self) -> None:
         """Take the robot out of the scene."""

@@ -43,9 +43,8 @@ class SensorsView:
 
     def show(self, poses: NDArray[np.float64]) -> None:
         """Move the sensors to their poses T_fixed_sensor (S, 4, 4), NaN where not known."""
-        for body, frustum, pose in zip(self._bodies, self._frustums, poses, strict=True):
-            place(body, pose)
-            place(frustum, pose)
+        place(self._bodies, poses)
+        place(self._frustums, poses)
         if not self._ringed and np.isfinite(poses).all():
             self._add_rings(poses)
             self._ringed = True
