@@ -17,10 +17,10 @@ def place(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) ->
 
     A node whose pose is not known, NaN, is hidden.
     """
-    known = np.isfinite(poses).all(axis=(1, 2))
+    known = np.isfinite(poses.reshape(-1, 16)).all(axis=1)
     turns = vtf.SO3.from_matrix(np.where(known[:, None, None], poses, np.eye(4))[:, :3, :3]).wxyz
-    for node, visible, wxyz, position in zip(nodes, known, turns, poses[:, :3, 3], strict=True):
-        if visible:
-            node.wxyz = wxyz
-            node.position = position
-        node.visible = bool(visible)
+    for i, node in enumerate(nodes):
+        if known[i]:
+            node.wxyz = turns[i]
+            node.position = poses[i, :3, 3]
+        node.visible = bool(known[i])
