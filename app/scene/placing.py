@@ -17,7 +17,7 @@ def place(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) ->
 
     A node whose pose is not known, NaN, is hidden.
     """
-    known = np.isfinite(poses.reshape(-1, 16)).all(axis=1)
+    known: NDArray[np.bool_] = np.all(np.isfinite(poses), axis=(1, 2))
     turns = vtf.SO3.from_matrix(np.where(known[:, None, None], poses, np.eye(4))[:, :3, :3]).wxyz
     for i, node in enumerate(nodes):
         if known[i]:
