@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from app.study.further_tables import error_percent
 from app.study.paper import method_label
 from app.study.plan import Plan
-from app.study.rows import Row, cell, speeds_of
+from app.study.rows import Row, cell, speeds_of, values
 from app.study.work import SWEPT_SCENARIO
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _STYLES = (
     ("#009E73", ":", "D"),
     ("#CC79A7", (0, (6, 1, 1, 1, 1, 1)), "v"),
 )
-_WIDTH, _HEIGHT = 3.5, 2.6  # inches: a column of a paper
+_WIDTH, _HEIGHT = 3.5, 2.7  # inches: a column of a paper
 _DPI = 300
 
 
@@ -47,6 +47,9 @@ def sweep_figure(plan: Plan, rows: list[Row]) -> dict[str, bytes] | None:
             frameon=False,
             handlelength=3.2,
             columnspacing=1.2,
+        )
+        figure.supxlabel(
+            "filled: every trial gave a flow; open: some did, and the error is theirs", fontsize=7
         )
         files: dict[str, bytes] = {}
         for ending, extra in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
@@ -80,16 +83,16 @@ def _draw(panel: "Axes", plan: Plan, rows: list[Row], method: str, speeds: list[
     for i, speed in enumerate(speeds):
         color, dash, marker = _STYLES[i % len(_STYLES)]
         found = errors[speed]
+        drawn = [float("nan") if e is None else e for e in found]
+        whole = [_every_trial(cell(rows, SWEPT_SCENARIO, method, speed, n)) for n in sweep]
+        look = {"color": color, "marker": marker, "markersize": 3.6, "linewidth": 1.2}
+        panel.plot(sweep, drawn, linestyle=dash, label=f"{speed:.2f} m/s", **look)
         panel.plot(
-            sweep,
-            [float("nan") if e is None else e for e in found],
-            color=color,
-            linestyle=dash,
-            marker=marker,
-            markersize=4,
+            [n for n, all_there in zip(sweep, whole, strict=True) if not all_there],
+            [e for e, all_there in zip(drawn, whole, strict=True) if not all_there],
+            linestyle="none",
             markerfacecolor="white",
-            linewidth=1.2,
-            label=f"{speed:.2f} m/s",
+            **look,
         )
         aside = 0.16 * (i - (len(speeds) - 1) / 2)
         panel.plot(
@@ -98,7 +101,7 @@ def _draw(panel: "Axes", plan: Plan, rows: list[Row], method: str, speeds: list[
             color=color,
             linestyle="none",
             marker=marker,
-            markersize=3.2,
+            markersize=3,
             markerfacecolor="white",
         )
     panel.set_title(method_label(method), fontsize=8)
@@ -112,3 +115,7 @@ def _draw(panel: "Axes", plan: Plan, rows: list[Row], method: str, speeds: list[
     panel.set_axisbelow(True)
     for side in ("top", "right"):
         panel.spines[side].set_visible(False)
+
+
+def _every_trial(trials: list[Row]) -> bool:
+    return len(values(trials, "velocity_error")) == len(trials)

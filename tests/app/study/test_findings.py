@@ -55,10 +55,19 @@ def test_what_could_not_be_computed_is_said_with_its_reason():
     assert "could not be computed at n = 10 and 0.30 m/s: 7 pairs count" in text
     assert "the object goes 0.20 m" in text
     assert "Unassigned: no point is near enough." in text
-    assert "where the paper could compute nothing, nothing can be computed here, either" in text
+    assert "Here 0 of 1 trials give some flow" in text
+    assert "The trials without any say: Unassigned: no point is near enough." in text
 
     text = said(made(n=10, metrics=good(6.0, 0.03)), made(n=10, trial=2), sweep=(10,))
-    assert "1 of 2 trials give some flow here, with a coverage of 0.50" in text
+    assert "1 of 2 trials give some flow; coverage at this speed is 0.50 at n = 10" in text
 
     short = said(made(n=10, metrics={"pairs": 0}), methods=("paper",), sweep=(10,))
     assert "does not move for 10 frames, and no pair counts" in short
+
+
+def test_a_trial_that_decides_its_cell_is_named():
+    rows = [made(trial=trial, metrics=good(6.0, 0.03)) for trial in (1, 2, 3)]
+    assert "alone has" not in said(*rows)
+    text = said(*rows, made(trial=4, metrics=good(29.0, 0.29)))
+    assert "at 0.30 m/s: trial 4 alone has 29.0 deg and 0.290 m/s" in text
+    assert "median of the trials is 6.0 deg and 0.030 m/s" in text
