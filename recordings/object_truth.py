@@ -54,7 +54,7 @@ def object_truth(
             if topic.use is use:
                 truth, said = read(topic, decoder, stamps, tree, fixed_frame)
                 warnings += said
-                if isinstance(truth, TwistTruth) and _turns(topic, decoder):
+                if isinstance(truth, TwistTruth) and truth.turns:
                     truth = _turning(truth, topics, decoder, stamps, tree, fixed_frame)
                 if truth is not None:
                     if not named_truth(topic.name):
@@ -81,12 +81,6 @@ def point_truths(
 
     The frame `object_3` of /tf is taken as the pose of the object 3 of that truth.
     """
-    numbers = {f: f.removeprefix(OBJECT_FRAME) for f in tree.frames if f.startswith(OBJECT_FRAME)}
-    poses = {
-        int(number): tree.over(fixed_frame, frame, len(table.stamps))
-        for frame, number in numbers.items()
-        if number.isdecimal() and tree.connected(fixed_frame, frame)
-    }
     topic = next((topic for topic in topics if topic.use is Use.POINTS), None)
     if topic is None:
         return None, []
@@ -95,13 +89,13 @@ def point_truths(
             f"The truth of points is given in {topic.frame} and not in {fixed_frame}; "
             f"it is not used."
         ]
+    numbers = {f: f.removeprefix(OBJECT_FRAME) for f in tree.frames if f.startswith(OBJECT_FRAME)}
+    poses = {
+        int(number): tree.over(fixed_frame, frame, len(table.stamps))
+        for frame, number in numbers.items()
+        if number.isdecimal() and tree.connected(fixed_frame, frame)
+    }
     return PointTruths(topic, decoder, table.stamps, 0.5 * table.period, poses), []
-
-
-def _turns(topic: Topic, decoder: Decoder) -> bool:
-    """Whether a twist says at any time that the object turns."""
-    rates = (message.twist.angular for message in decoder.messages(topic.channel))
-    return any(max(abs(rate.x), abs(rate.y), abs(rate.z)) > _TURNING for rate in rates)
 
 
 def _turning(
@@ -130,10 +124,12 @@ def _by_twist(
 ) -> tuple[ObjectTruth | None, list[str]]:
     times: list[int] = []
     values: list[tuple[float, float, float]] = []
+    turns = False
     for message in decoder.messages(topic.channel):
-        linear = message.twist.linear
+        linear, angular = message.twist.linear, message.twist.angular
         times.append(stamp_of(message))
         values.append((linear.x, linear.y, linear.z))
+        turns |= max(abs(angular.x), abs(angular.y), abs(angular.z)) > _TURNING
     velocity = np.array(values)
     warnings: list[str] = []
     if topic.frame not in ("", fixed_frame):
@@ -148,15 +144,15 @@ def _by_twist(
                 f"{fixed_frame}; it is not used as the truth."
             ]
         else:
-            turns = tree.over(fixed_frame, topic.frame, len(stamps))
-            turn = next((T for T in turns if np.isfinite(T).all()), None)
+            poses = tree.over(fixed_frame, topic.frame, len(stamps))
+            turn = next((T for T in poses if np.isfinite(T).all()), None)
             if turn is None:
                 return None, [f"The pose of {topic.frame} is not known at any frame."]
             velocity = velocity @ turn[:3, :3].T
     track = vector_track(np.array(times, dtype=np.int64), velocity)
     if track is None:
         return None, [f"{topic.name} has no finite velocity."]
-    return TwistTruth(track, stamps), warnings
+    return TwistTruth(track, stamps, turns), warnings
 
 
 def _by_pose(

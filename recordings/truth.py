@@ -41,14 +41,19 @@ class ObjectTruth(Protocol):
 
 
 class TwistTruth:
-    """An object in pure translation, whose velocity was recorded.
+    """An object taken to be in pure translation, whose velocity was recorded.
 
     Args:
         track: velocity in the fixed frame.
         stamps: (K,) nanoseconds of the frames.
+        turns: whether the recording says that it turns, too.
+
+    Attributes:
+        turns: the same.
     """
 
-    def __init__(self, track: VectorTrack, stamps: Stamps) -> None:
+    def __init__(self, track: VectorTrack, stamps: Stamps, turns: bool = False) -> None:
+        self.turns = turns
         self._track, self._stamps = track, stamps
         self._at_frames = track.at(stamps)
 

@@ -10,9 +10,7 @@ from tests.recordings.simulation.made import RIG, frames, written
 
 def test_lost_frames_are_missing_and_the_others_are_the_same():
     def made(imperfections: tuple[str, ...]) -> dict[float, Frame]:
-        simulated = frames(
-            SCENARIOS["towards"], 0.15, noise="measured", imperfections=imperfections
-        )
+        simulated = frames(SCENARIOS["towards"], 0.6, noise="measured", imperfections=imperfections)
         return {frame.stamp: frame for frame in simulated}
 
     all_of_them, rest = made(()), made(("dropped_frames",))
@@ -24,7 +22,7 @@ def test_lost_frames_are_missing_and_the_others_are_the_same():
 
 def test_frames_that_are_early_or_late_show_where_things_are_then():
     simulated = list(
-        frames(SCENARIOS["towards"], 0.3, noise="none", imperfections=("stamp_jitter",))
+        frames(SCENARIOS["towards"], 0.6, noise="none", imperfections=("stamp_jitter",))
     )
     stamps = np.array([frame.stamp for frame in simulated])
     off = stamps - (1.0 + np.arange(len(stamps)) / 15)
@@ -32,12 +30,12 @@ def test_frames_that_are_early_or_late_show_where_things_are_then():
     assert np.abs(off).max() <= 0.015
     moving = [frame for frame in simulated if frame.target_velocity.any()]
     gone = [frame.T_base_target[1, 3] - simulated[0].T_base_target[1, 3] for frame in moving]
-    assert gone == pytest.approx([-0.3 * (frame.stamp - 1.7) for frame in moving])
+    assert gone == pytest.approx([-0.6 * (frame.stamp - 1.7) for frame in moving])
 
 
 def test_the_reader_drops_what_the_status_says_is_no_distance(tmp_path: Path):
-    path = written(tmp_path / "x.mcap", "towards", speed=0.3, noise="measured")
-    made = list(frames(SCENARIOS["towards"], 0.3, noise="measured"))
+    path = written(tmp_path / "x.mcap", "towards", speed=1.0, noise="measured")
+    made = list(frames(SCENARIOS["towards"], 1.0, noise="measured"))
     with open_recording(path) as recording:
         assert recording.warnings == ()
         where = [[s.name for s in RIG.sensors].index(s.name) for s in recording.sensors]
