@@ -39,7 +39,7 @@ def origin(recording: Recording) -> str:
     """Whether it was measured or simulated, and what was simulated."""
     source = recording.provenance
     if not recording.simulated:
-        return "recorded"
+        return "measured"
     if source is None:
         return "simulated"
     return f"simulated: {source.scenario}, {source.speed:g} m/s, trial {source.trial}"

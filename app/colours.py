@@ -7,7 +7,7 @@ TARGET: Colour = (31, 99, 200)
 FLOW: Colour = (0, 130, 45)
 TRUTH: Colour = (235, 125, 0)
 SENSOR: Colour = (205, 20, 30)
-FIELD_OF_VIEW: Colour = (190, 110, 110)
+FRUSTUM: Colour = (190, 110, 110)
 PICKED: Colour = (214, 0, 147)
 BRAND: Colour = (31, 99, 200)
 

@@ -10,7 +10,7 @@ from app.evaluation import pair_errors
 from app.foreground import Foreground
 from app.library import Opened
 from app.memory import Memory
-from app.timeline import Outline, Timeline
+from app.timeline import Outline
 from estimator import (
     MOVING_SPEED,
     CloudPair,
@@ -146,16 +146,18 @@ class Estimates:
         """The pair (k-n, k) with its flow where it was estimated already."""
         return self._pairs.known((opened.key, k, parameters))
 
-    def timeline(self, opened: Opened, parameters: Parameters) -> Timeline:
-        """The recording at a glance; where there is no truth, what the known estimates say."""
-        outline = self._outlines.get(opened.key, lambda: Outline(opened.recording))
-        empty, moving = [False] * outline.count, [False] * outline.count
+    def outline(self, opened: Opened) -> Outline:
+        """What the recording says of its timeline by itself."""
+        return self._outlines.get(opened.key, lambda: Outline(opened.recording))
+
+    def remembered(self, opened: Opened, parameters: Parameters) -> list[Pair]:
+        """All pairs of a recording that were estimated with these parameters, as far as known."""
         # A recording may have many more frames than are remembered.
-        for (key, k, values), pair in self._pairs.items():
-            if key == opened.key and values == parameters:
-                empty[k] = len(pair.target.points) == 0
-                moving[k] = pair.anything_moves
-        return outline.with_estimates(empty, moving)
+        return [
+            pair
+            for (key, _, values), pair in self._pairs.items()
+            if key == opened.key and values == parameters
+        ]
 
     def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> _Prepared:
         key = (opened.key, k, parameters.n, parameters.max_range)

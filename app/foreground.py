@@ -28,14 +28,20 @@ class Foreground:
             self._ended = time.monotonic()
             self._changed.notify_all()
 
-    def wait_until_quiet(self, seconds: float) -> None:
-        """Wait until nothing has run for this long; a slider that is moved is never quiet."""
+    def wait_until_quiet(self, seconds: float, at_most: float = threading.TIMEOUT_MAX) -> None:
+        """Wait until nothing has run for some time.
+
+        Args:
+            seconds: for which nothing must have run.
+            at_most: seconds after which the wait ends all the same: a slider that is moved is
+                never quiet, nor is a recording that is played and too long to be remembered.
+        """
+        end = time.monotonic() + at_most
         with self._changed:
-            while True:
-                left = self._ended + seconds - time.monotonic()
-                if self._running:
-                    self._changed.wait()
-                elif left > 0:
-                    self._changed.wait(left)
-                else:
+            while (now := time.monotonic()) < end:
+                quiet = self._ended + seconds
+                if not self._running and now >= quiet:
                     return
+                self._changed.wait(
+                    min(end - now, threading.TIMEOUT_MAX if self._running else quiet - now)
+                )

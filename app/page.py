@@ -29,6 +29,7 @@ class Page:
     """All panels of a client, from top to bottom.
 
     Attributes:
+        recordings: the panel that says what is open, or being opened.
         parameters: the panel that changes of parameters are accepted and refused in.
     """
 
@@ -37,8 +38,9 @@ class Page:
         set_up_keys(desk.client)
         set_up_fields(desk.client)
         set_up_scene_edge(desk.client)
+        self.recordings = RecordingsPanel(desk)
         self._panels: list[Panel] = [
-            RecordingsPanel(desk),
+            self.recordings,
             PlaybackPanel(desk),
             StatusPanel(desk),
         ]
@@ -69,6 +71,11 @@ class Page:
         """Show what the session shows."""
         for panel in self._panels:
             panel.show(shown)
+
+    def leave(self) -> None:
+        """End what is done for the client, which has gone."""
+        for panel in self._panels:
+            panel.leave()
 
     def close(self) -> None:
         """Let go of the recording, which is about to be closed."""

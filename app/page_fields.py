@@ -34,6 +34,11 @@ if (!window.tofscopeSet) {
     const number = 'input:not([type=hidden])';
     type(field.matches(number) ? field : field.parentElement.querySelector(number), value);
   };
+  window.tofscopeUnfold = name => {
+    for (const arrow of document.querySelectorAll('svg.tabler-icon-chevron-down')) {
+      if (arrow.parentElement.textContent === name) arrow.parentElement.click();
+    }
+  };
   window.tofscopeAlong = (event, element, start, end) => {
     const box = element.getBoundingClientRect();
     const share = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1);
@@ -60,6 +65,11 @@ if (!window.tofscopeSet) {
 def set_up_fields(client: viser.ClientHandle) -> None:
     """Let the page do so from now on."""
     run(client, _SCRIPT)
+
+
+def unfold(client: viser.ClientHandle, folder: str) -> None:
+    """Open the folder of this name in the page, where it is closed; viser can only begin so."""
+    run(client, f"window.tofscopeUnfold({folder!r})")
 
 
 def sets(control: viser.GuiInputHandle, value: str) -> str:

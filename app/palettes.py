@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.colours import FIELD_OF_VIEW, FLOW, SOURCE, TARGET, TRUTH, Colour
+from app.colours import FLOW, FRUSTUM, SOURCE, TARGET, TRUTH, Colour
 from app.comparison_sides import A
 
 PAPER, COLOUR_BLIND = "As in the paper", "Colour-blind safe"
@@ -22,11 +22,11 @@ class Palette:
         stationary: of source points that rest.
         unassigned: of source points of which nothing is known.
         target: of the target.
-        flow: of arrows, and of the field of view of a sensor that sees something moving.
+        flow: of arrows, and of the frustum of a sensor that sees something moving.
         second: of the arrows of B where A and B are drawn together; those of A are as `flow`.
         truth: of the truth's arrow.
         ghost: of the place where the truth says that a source point is now.
-        field_of_view: of the sensors that see nothing moving.
+        frustum: of the sensors that see nothing moving.
         grid: of the grid's thin lines and of its thick ones.
         categories: for things of which there may be several, such as clusters.
         ramp: from little to much.
@@ -41,7 +41,7 @@ class Palette:
     second: Colour
     truth: Colour
     ghost: Colour
-    field_of_view: Colour
+    frustum: Colour
     grid: tuple[Colour, Colour]
     categories: tuple[Colour, ...]
     ramp: tuple[Colour, ...]
@@ -94,7 +94,7 @@ _ALL = {
         second=(130, 50, 200),
         truth=TRUTH,
         ghost=(248, 178, 92),
-        field_of_view=FIELD_OF_VIEW,
+        frustum=FRUSTUM,
         grid=_LIGHT_GRID,
         categories=_CATEGORIES,
         ramp=_RAMP,
@@ -109,7 +109,7 @@ _ALL = {
         second=(130, 50, 215),
         truth=(255, 160, 40),
         ghost=(170, 110, 40),
-        field_of_view=(150, 90, 90),
+        frustum=(150, 90, 90),
         grid=_DARK_GRID,
         categories=_CATEGORIES,
         ramp=_BRIGHT_RAMP,
@@ -124,7 +124,7 @@ _ALL = {
         second=(95, 60, 20),
         truth=(170, 70, 130),
         ghost=(222, 170, 202),
-        field_of_view=(160, 140, 130),
+        frustum=(160, 140, 130),
         grid=_LIGHT_GRID,
         categories=_CATEGORIES,
         ramp=_RAMP,
@@ -139,7 +139,7 @@ _ALL = {
         second=(240, 228, 66),
         truth=(225, 140, 190),
         ghost=(140, 84, 120),
-        field_of_view=(130, 112, 100),
+        frustum=(130, 112, 100),
         grid=_DARK_GRID,
         categories=_CATEGORIES,
         ramp=_BRIGHT_RAMP,

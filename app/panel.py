@@ -90,3 +90,6 @@ class Panel:
 
     def close(self) -> None:
         """Let go of the recording, which is about to be closed."""
+
+    def leave(self) -> None:
+        """End what is done for the client, which has gone."""

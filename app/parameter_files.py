@@ -53,6 +53,10 @@ def load(path: Path) -> Parameters:
     """
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path} cannot be read as parameters: {error}.") from error
+    except FileNotFoundError as error:
+        raise InputError(f"There is no file {path}; check the spelling.") from error
+    except OSError as error:
+        raise InputError(f"{path} cannot be read as parameters ({error.strerror}).") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path} is no text, and so no file of parameters.") from error
     return from_text(text, str(path))

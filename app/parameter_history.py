@@ -8,6 +8,7 @@ from estimator import Parameters
 
 _DRAG = 1.0  # seconds; changes of the same parameter closer together than this are one change
 _SIZE = 200
+_NOTHING: tuple[frozenset[str], float] = (frozenset(), -_DRAG)
 
 
 class ParameterHistory:
@@ -16,19 +17,27 @@ class ParameterHistory:
     def __init__(self) -> None:
         self._undo: list[Mapping[str, Any]] = []
         self._redo: list[Mapping[str, Any]] = []
-        self._last: tuple[frozenset[str], float] = (frozenset(), -_DRAG)
+        self._last = _NOTHING  # names that changed last, and when
 
-    def note(self, before: Parameters, after: Parameters, now: float) -> None:
-        """Remember a change that was made at `now` (seconds of any steady clock)."""
+    def note(self, before: Parameters, after: Parameters, now: float | None) -> None:
+        """Remember a change.
+
+        Args:
+            before: the parameters before it.
+            after: the parameters after it.
+            now: seconds of any steady clock; None for what is no part of a drag, such as a reset.
+        """
         change = _differences(before, after)
         if not change:
             return
         names = frozenset(change)
-        if not (self._undo and self._last[0] == names and now - self._last[1] < _DRAG):
+        last, then = self._last
+        dragged = now is not None and last == names and now - then < _DRAG
+        if not (self._undo and dragged):
             self._undo.append(change)
             del self._undo[:-_SIZE]
         self._redo.clear()
-        self._last = (names, now)
+        self._last = _NOTHING if now is None else (names, now)
 
     def undo(self, parameters: Parameters) -> Parameters | None:
         """The parameters before the last change, None where there is none."""
@@ -45,7 +54,7 @@ class ParameterHistory:
             return None
         changed = replace(parameters, **stack.pop())
         other.append(_differences(parameters, changed))
-        self._last = (frozenset(), -_DRAG)  # what follows is a change of its own
+        self._last = _NOTHING  # what follows is a change of its own
         return changed
 
 

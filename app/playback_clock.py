@@ -62,9 +62,15 @@ class PlaybackClock:
         self._start = None
 
     def change(self, values: dict[str, Any], frame: int, now: float) -> None:
-        """Play otherwise, {field of `Playback`: value}, while `frame` is shown."""
+        """Play otherwise, {field of `Playback`: value}, while `frame` is shown.
+
+        A range is kept within the recording.
+        """
         start = (self._stamp(now), now) if self.playing else None
-        self.playback = replace(self.playback, **values)
+        playback = replace(self.playback, **values)
+        last = min(max(playback.last, 0), len(self._stamps) - 1)
+        first = min(max(playback.first, 0), last)
+        self.playback = replace(playback, first=first, last=last)
         if start:
             self.play(frame, now)
             self._start = start  # a slider's many changes must not hold time up

@@ -13,6 +13,8 @@ from app.session import Session, Shared
 from app.theme import dress
 
 _PANEL_WIDTH = 360  # pixels
+_ANY = {"0.0.0.0": "127.0.0.1", "::": "::1", "": "127.0.0.1"}
+"""{address that stands for all of this machine: the one that browsers on it use}."""
 
 
 class Server:
@@ -54,7 +56,14 @@ class Server:
     @property
     def address(self) -> str:
         """Where a browser on this machine finds the page."""
-        host = {"0.0.0.0": "127.0.0.1", "::": "::1", "": "127.0.0.1"}.get(self.host, self.host)
+        return self._address(_ANY.get(self.host, self.host))
+
+    @property
+    def address_for_others(self) -> str:
+        """Where a browser on another machine finds the page, as far as this one knows its name."""
+        return self._address(_own_address(self.host) if self.host in _ANY else self.host)
+
+    def _address(self, host: str) -> str:
         return f"http://[{host}]:{self.port}" if ":" in host else f"http://{host}:{self.port}"
 
     def close(self) -> None:
@@ -66,6 +75,19 @@ class Server:
             session.join(timeout=5.0)
         self._memory.close()
         self._server.stop()
+
+
+def _own_address(host: str) -> str:
+    """The address from which this machine would reach others, or its name where it has none."""
+    version_6 = host == "::"
+    family = socket.AF_INET6 if version_6 else socket.AF_INET
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
+            # An address for documents. To connect a datagram's socket sends nothing.
+            probe.connect(("2001:db8::1" if version_6 else "192.0.2.1", 9))
+            return str(probe.getsockname()[0])
+    except OSError:
+        return socket.gethostname()
 
 
 def _check_free(host: str, port: int) -> None:

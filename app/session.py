@@ -3,8 +3,7 @@
 import logging
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 from uuid import uuid4
 
 import viser
@@ -35,17 +34,17 @@ class Shared:
         estimates: what was computed already.
         reloads: what ended sessions left.
         parameters: with which a session begins.
+        surveys: of whole recordings, in the background.
     """
 
     library: Library
     estimates: Estimates
     reloads: Reloads
     parameters: Parameters
+    surveys: Surveys = field(init=False)
 
-    @cached_property
-    def surveys(self) -> Surveys:
-        """Of whole recordings, in the background."""
-        return Surveys(self.estimates)
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "surveys", Surveys(self.estimates))
 
 
 class Session:
@@ -79,6 +78,10 @@ class Session:
                 show_empty_page(self._client, [str(path) for path in self._shared.library.paths])
                 return
             token, place = self._arrive()
+            labels = [entry.label for entry in entries]
+            if place and place.label not in labels:
+                self._say(f"The recording {place.label} is not among those that are listed here.")
+                place = None  # nor do its parameters suit another one
             workbench = Workbench(
                 self._client,
                 self._shared.library,
@@ -90,10 +93,6 @@ class Session:
                 place.settings if place else ViewSettings(),
                 self._mailbox,
             )
-            labels = [entry.label for entry in entries]
-            if place and place.label not in labels:
-                self._say(f"The recording {place.label} is not among those that are listed here.")
-                place = None
             self._mailbox.post(OpenAny((*([place.label] if place else []), *labels)))
             if place:
                 self._mailbox.post(Arrive(place))

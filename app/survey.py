@@ -19,6 +19,7 @@ class Survey:
         parameters: of the estimates.
         done: (K,) whether a frame's numbers are there.
         moving: (K,) points with a flow.
+        empty: (K,) whether it is known that no point is placed in a frame.
         speed: (K,) m/s, mean over the points with a flow.
         true_speed: (K,) m/s of the moving object over the pair, 0 where it rests.
         angle_deg: (K,) mean angle deviation of the pairs that count, degrees.
@@ -33,6 +34,7 @@ class Survey:
         size = len(recording)
         self.parameters = parameters
         self.done = np.arange(size) < parameters.n  # they have no pair
+        self.empty = np.zeros(size, dtype=bool)
         self._sums = np.zeros((size, _SUMS))
         self._counts = np.zeros(size, dtype=bool)
         for _, k in counting_pairs(recording, parameters.n):
@@ -60,6 +62,9 @@ class Survey:
 
     def put(self, k: int, pair: Pair | None) -> None:
         """Take the numbers of frame `k` from its pair; None where the recording is broken there."""
+        if pair is not None and pair.source is not None:
+            self.empty[k] = len(pair.target.points) == 0
+            self.empty[k - self.parameters.n] = len(pair.source.points) == 0
         if pair is not None and pair.flow is not None:
             moving = pair.flow.moving
             self.moving[k] = np.count_nonzero(moving)

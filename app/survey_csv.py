@@ -37,7 +37,7 @@ def to_csv(recording: Recording, survey: Survey) -> str:
 
 def _heading(recording: Recording, survey: Survey) -> str:
     parameters = "; ".join(f"{name}={value}" for name, value in asdict(survey.parameters).items())
-    origin = "simulated" if recording.simulated else "not simulated by Tofscope"
+    origin = "simulated" if recording.simulated else "measured"
     name = " ".join(recording.path.name.split())  # a line of its own, whatever a file is called
     said = f"Tofscope; recording {name}; {origin}; {parameters}"
     if not survey.complete:

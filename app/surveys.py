@@ -14,7 +14,8 @@ from app.survey import Survey
 from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
-_QUIET = 0.6  # seconds without anybody waiting for an estimate; who tunes is never held up
+_QUIET = 0.6  # seconds without anybody waiting for an estimate; who tunes is hardly held up
+_PATIENCE = 1.0  # seconds after which each survey goes on by one frame all the same
 _TELL = 0.3  # seconds between two times that a listener is told of something new
 
 
@@ -69,6 +70,10 @@ class Surveys:
                 self._thread = threading.Thread(target=self._run, name="surveys")
                 self._thread.start()
 
+    def known(self, opened: Opened, parameters: Parameters) -> Survey | None:
+        """A survey as far as it is filled, None where nothing of it is remembered."""
+        return self._surveys.known((opened.key, parameters))
+
     def leave(self, who: Hashable) -> None:
         """Ask for nothing any more."""
         with self._changed:
@@ -86,7 +91,7 @@ class Surveys:
                     return
                 turn = list(self._requests.items())
             for who, request in turn:
-                self._estimates.foreground.wait_until_quiet(_QUIET)
+                self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
                 try:
                     if request.wanted and self._advance(request):
                         self._finish(who, request)

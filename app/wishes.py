@@ -48,7 +48,7 @@ class OpenAny(LatestWins):
             except UserError as error:
                 problems.append(str(error))
         if problems:
-            more = f" So it is with {len(problems) - 1} more." if len(problems) > 1 else ""
+            more = f" {len(problems) - 1} more could not be opened." if len(problems) > 1 else ""
             raise InputError(problems[0] + more)
 
 
@@ -65,14 +65,40 @@ class Arrive(LatestWins):
 
 
 @dataclass(frozen=True)
-class Seek(LatestWins):
-    """Show this frame; a number outside the recording means its first or last one."""
+class Move:
+    """Go to a frame and then some frames on: one kind of wish, so that its parts keep their order.
 
-    frame: int
+    Attributes:
+        start: frame to go to first, None for the one that is shown; a number outside the
+            recording means its first or last one.
+        steps: frames to go from there, back where it is negative.
+    """
+
+    start: int | None = None
+    steps: int = 0
+
+    def after(self, earlier: Self) -> Self:
+        """Both; where this one names a frame, it does not matter what was before."""
+        if self.start is not None:
+            return self
+        return type(self)(earlier.start, earlier.steps + self.steps)
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Go there."""
-        workbench.seek(self.frame)
+        if self.start is not None:
+            workbench.seek(self.start)
+        if self.steps:
+            workbench.seek(workbench.frame + self.steps)
+
+
+def seek(frame: int) -> Move:
+    """Show this frame; a number outside the recording means its first or last one."""
+    return Move(start=frame)
+
+
+def step(frames: int) -> Move:
+    """Go this many frames on, or back where it is negative."""
+    return Move(steps=frames)
 
 
 @dataclass(frozen=True)
@@ -128,21 +154,6 @@ class ChangeView:
     def fulfil(self, workbench: "Workbench") -> None:
         """Draw so."""
         workbench.change_view(self.values)
-
-
-@dataclass(frozen=True)
-class Step:
-    """Go this many frames on, or back where it is negative."""
-
-    frames: int
-
-    def after(self, earlier: Self) -> Self:
-        """Both steps."""
-        return type(self)(earlier.frames + self.frames)
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Go there."""
-        workbench.seek(workbench.frame + self.frames)
 
 
 @dataclass(frozen=True)

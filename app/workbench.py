@@ -28,7 +28,7 @@ from app.scene.settings import ViewSettings
 from app.selection import Selection, cluster_at, cluster_of
 from app.surveys import Surveys
 from app.timeline import Timeline
-from app.wishes import OpenRecording, Seek
+from app.wishes import Move, OpenRecording
 from estimator import Parameters
 
 
@@ -60,7 +60,7 @@ class Workbench:
         mailbox: Mailbox,
     ) -> None:
         self.client = client
-        self._library = library
+        self.library = library
         self._mailbox = mailbox
         self.estimates = estimates
         self._entries = {entry.label: entry for entry in entries}
@@ -77,7 +77,7 @@ class Workbench:
         self._framing = Framing(client, self._scene)
         self._pair: Pair | None = None
         self._other: Pair | None = None
-        self._outlook = Outlook(estimates)
+        self._outlook = Outlook(estimates, surveys)
         self._selection = Selection()
         self._picked: int | None = None
         self.page = Page(Desk(client, entries, parameters, self.settings, mailbox.post, surveys))
@@ -116,11 +116,12 @@ class Workbench:
         entry = self._entries.get(label)
         if entry is None or (self.opened is not None and self.opened.entry == entry):
             return
-        opened = self._library.open(entry)
+        with self.page.recordings.opening(label, self.opened):
+            opened = self.library.open(entry)
         before, self.opened = self.opened, opened
         if before is not None:
             self.page.close()
-            self._library.release(before.entry)
+            self.library.release(before.entry)
         recording = opened.recording
         self._clock = PlaybackClock(recording.stamps, like=self._clock.playback)
         self.frame = telling_frame(opened, self.parameters, self.estimates)
@@ -164,7 +165,7 @@ class Workbench:
     def set_parameters(self, parameters: Parameters) -> None:
         """Take other parameters, and show them in the page's controls."""
         before, self.parameters = self.parameters, parameters
-        self._history.note(before, parameters, time.monotonic())
+        self._history.note(before, parameters, None)
         self.page.parameters.replace(parameters)
 
     def undo_parameters(self, changes: int) -> None:
@@ -176,9 +177,13 @@ class Workbench:
 
     def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
         """Compare otherwise, or not at all, and edit these parameters."""
-        self.comparison, self.parameters = comparison, edited
+        before = self.comparison
         if comparison is None:
             self._histories[B] = ParameterHistory()
+        elif before is not None:  # a copy replaces parameters, a switch does not
+            replaced = self.parameters if before.edited == comparison.edited else before.other
+            self._histories[comparison.edited].note(replaced, edited, None)
+        self.comparison, self.parameters = comparison, edited
         self.page.parameters.replace(edited)
 
     def change_view(self, values: Mapping[str, Any]) -> None:
@@ -192,11 +197,12 @@ class Workbench:
             self._selection.pick(self._pair, cluster)
             self._mark()
 
-    def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> None:
-        """Pick the cluster under a ray (3,), (3,) of the drawing; none where it passes all by."""
+    def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> bool:
+        """Pick the cluster under a ray (3,), (3,) of the drawing; none, False, if it misses all."""
         if self._pair is not None:
             ray = (self._scene.in_fixed_frame(np.array(v)) for v in (origin, direction))
             self.pick(cluster_at(self._pair, *ray))
+        return self._picked is not None
 
     def look(self, view: str) -> None:
         """Put the camera to the view of this name."""
@@ -248,9 +254,10 @@ class Workbench:
 
     def close(self) -> None:
         """Give back the recording."""
+        self.page.leave()
         if self.opened is not None:
             self.page.close()
-            self._library.release(self.opened.entry)
+            self.library.release(self.opened.entry)
             self.opened = None
 
     @property
@@ -272,7 +279,7 @@ class Workbench:
             playing=self._clock.playing,
             playback=self.playback,
             timeline=self._outlook.timeline(opened, self.parameters),
-            seeking=self._mailbox.waits(Seek),
+            seeking=self._mailbox.waits(Move),
         )
 
     def _draw_pairs(

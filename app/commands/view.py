@@ -63,7 +63,8 @@ def run(options: argparse.Namespace) -> int:
         if not _is_loopback(options.host):
             print(
                 f"Warning: at {options.host} everybody who can reach this machine can see the "
-                "recordings; there is no password.",
+                "recordings, and change and delete the presets. There is no password, and nothing "
+                f"is encrypted. Others find the page at {server.address_for_others}.",
                 file=sys.stderr,
             )
         print(f"Tofscope is at {server.address}", flush=True)

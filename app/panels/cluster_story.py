@@ -4,21 +4,25 @@ import math
 from collections.abc import Callable, Sequence
 from html import escape
 
-from app.colours import FLOW, PICKED, css
+from app.colours import PICKED, css
+from app.palettes import Palette
 from app.panels.tables import Row, framed, signed, table
 from estimator import ClusterResult, IcpRound, Label, Parameters
 
-FILLS: dict[Label, str] = {
-    Label.MOVING: f'fill="{css(FLOW)}"',
-    Label.STATIONARY: 'fill="currentColor" fill-opacity="0.55"',
-    Label.UNASSIGNED: 'fill="currentColor" fill-opacity="0.2"',
-}
-"""{label: how a bar or a swatch of it is filled}, on light and on dark."""
+
+def fills(palette: Palette) -> dict[Label, str]:
+    """{label: how a bar or a swatch of it is filled}, on light and on dark."""
+    return {
+        Label.MOVING: f'fill="{css(palette.flow)}"',
+        Label.STATIONARY: 'fill="currentColor" fill-opacity="0.55"',
+        Label.UNASSIGNED: 'fill="currentColor" fill-opacity="0.2"',
+    }
 
 
 def cluster_table(
     clusters: Sequence[ClusterResult],
     picked: int | None,
+    palette: Palette,
     attributes: Callable[[ClusterResult], str],
 ) -> str:
     """All clusters, a row each, the picked one marked.
@@ -26,6 +30,7 @@ def cluster_table(
     Args:
         clusters: of a pair.
         picked: index of the picked one, None where none is.
+        palette: of the drawing.
         attributes: of a cluster's row, which say what a click on it does.
     """
     head = ("", "Points", "Fitness", "Displ.", "Label")
@@ -36,7 +41,7 @@ def cluster_table(
                 f"{len(cluster.source)} / {len(cluster.target)}",
                 _number(cluster.fitness, "{:.2f}"),
                 _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
-                f"{swatch(cluster.label)}{cluster.label.name.lower()}",
+                f"{swatch(cluster.label, palette)}{cluster.label.name.lower()}",
             ),
             marked=cluster.index == picked,
             attributes=attributes(cluster),
@@ -50,7 +55,7 @@ def cluster_table(
     )
 
 
-def story(cluster: ClusterResult, parameters: Parameters) -> str:
+def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> str:
     """Every round of a cluster, how far each was from the thresholds, and the outcome in words."""
     title = f"<b>Cluster {cluster.index}</b>: {len(cluster.source)} source and "
     title += f"{len(cluster.target)} target points"
@@ -69,22 +74,23 @@ def story(cluster: ClusterResult, parameters: Parameters) -> str:
     )
     return framed(
         f"<div>{title}</div>{table(head, rows) if rows else ''}{note}"
-        f'<div style="margin: 0.3em 0">{swatch(cluster.label)}{escape(cluster.reason)}</div>'
+        f'<div style="margin: 0.3em 0">{swatch(cluster.label, palette)}'
+        f"{escape(cluster.reason)}</div>"
     )
 
 
-def swatch(label: Label) -> str:
+def swatch(label: Label, palette: Palette) -> str:
     """A small square in the label's colour."""
     return (
         '<svg width="8" height="8" style="margin-right: 0.4em">'
-        f'<rect width="8" height="8" {FILLS[label]}/></svg>'
+        f'<rect width="8" height="8" {fills(palette)[label]}/></svg>'
     )
 
 
-def legend() -> str:
+def legend(palette: Palette) -> str:
     """What the colours of the bars mean, and the mark."""
     labels = "".join(
-        f'<span style="margin-right: 1em">{swatch(label)}{label.name.lower()}</span>'
+        f'<span style="margin-right: 1em">{swatch(label, palette)}{label.name.lower()}</span>'
         for label in (Label.MOVING, Label.STATIONARY, Label.UNASSIGNED)
     )
     return framed(

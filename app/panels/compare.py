@@ -97,11 +97,21 @@ class ComparePanel(Panel):
                 "Remove B", icon=viser.Icon.X, color="gray", visible=False
             )
         key = gui.add_command("Compare: switch between A and B", hotkey="B")
+        copying = gui.add_command("Compare: copy A to B", icon=viser.Icon.COPY)
+        removing = gui.add_command("Compare: remove B", icon=viser.Icon.X)
 
         # Coroutines run at once, before anything can change a control's value again.
         @copy.on_click
         async def _(_: viser.GuiEvent) -> None:
             post(CopyToB())
+
+        @copying.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            post(CopyToB())
+
+        @removing.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            post(RemoveB())
 
         @self._switch.on_click
         async def _(_: viser.GuiEvent) -> None:

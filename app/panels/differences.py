@@ -25,11 +25,10 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
     "Stationary": ("{:.0f}", _labelled(Label.STATIONARY)),
     "Unassigned": ("{:.0f}", _labelled(Label.UNASSIGNED)),
     "Clusters": ("{:.0f}", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
-    "Angle [°]": ("{:.1f}", _error(lambda errors: errors.angle_deg)),
+    "Angle deviation [°]": ("{:.1f}", _error(lambda errors: errors.angle_deg)),
     "Vel. error [m/s]": ("{:.3f}", _error(lambda errors: errors.velocity_error)),
     "Coverage [%]": ("{:.1f}", _error(lambda errors: 100 * errors.coverage)),
     "Precision [%]": ("{:.1f}", _error(lambda errors: 100 * errors.precision)),
-    "Estimate [ms]": ("{:.0f}", lambda pair: pair.milliseconds),
 }
 """{what is compared: how it is written, and what it is of a pair}; NaN where nothing defines it."""
 

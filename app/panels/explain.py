@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import viser
 
 from app.estimates import Pair
-from app.page_fields import sets
+from app.page_fields import sets, unfold
+from app.palettes import Palette
 from app.panel import Desk, Panel, Shown
 from app.panels.cluster_story import cluster_table, legend, story
 from app.panels.histograms import Histogram, upper_limit
@@ -18,6 +19,7 @@ from estimator import ClusterResult, Parameters
 if TYPE_CHECKING:
     from app.workbench import Workbench
 
+_FOLDER = "Explain"
 _NONE: str = "none"
 _STEP = 0.05  # width of a bar of the fitness
 _BARS = 20  # of the displacement
@@ -38,14 +40,15 @@ class PickCluster(LatestWins):
 
 @dataclass(frozen=True)
 class PickAt(LatestWins):
-    """Pick the cluster that is clicked on; a click beside all of them picks none."""
+    """Pick the cluster that is clicked on, and tell it; a click beside all of them picks none."""
 
     origin: Vector
     direction: Vector
 
     def fulfil(self, workbench: "Workbench") -> None:
         """Pick it."""
-        workbench.pick_at(self.origin, self.direction)
+        if workbench.pick_at(self.origin, self.direction):
+            unfold(workbench.client, _FOLDER)
 
 
 class ExplainPanel(Panel):
@@ -54,8 +57,8 @@ class ExplainPanel(Panel):
     def __init__(self, desk: Desk) -> None:
         gui, post = desk.client.gui, desk.post
         self._pair: Pair | None = None
-        self._picked: int | None = None
-        with gui.add_folder("Explain", expand_by_default=False):
+        self._told: tuple[int | None, Palette] | None = None
+        with gui.add_folder(_FOLDER, expand_by_default=False):
             self._list = gui.add_dropdown(
                 "Cluster",
                 (_NONE,),
@@ -85,11 +88,15 @@ class ExplainPanel(Panel):
             self._choices({_NONE: None}, None)
             self._story.content = framed("There is no estimate of this frame to explain.")
             self._table.content = self._fitness.content = self._displacement.content = ""
-        elif pair is not self._pair or shown.picked != self._picked:
-            self._pair, self._picked = pair, shown.picked
-            self._explain(pair, shown.picked, shown.parameters)
+            return
+        picked, palette = told = (shown.picked, shown.settings.palette)
+        if pair is not self._pair or told != self._told:
+            self._pair, self._told = pair, told
+            self._explain(pair, picked, shown.parameters, palette)
 
-    def _explain(self, pair: Pair, picked: int | None, parameters: Parameters) -> None:
+    def _explain(
+        self, pair: Pair, picked: int | None, parameters: Parameters, palette: Palette
+    ) -> None:
         assert pair.flow is not None
         clusters = pair.flow.clusters
         names = {_name(cluster): cluster.index for cluster in clusters}
@@ -100,11 +107,12 @@ class ExplainPanel(Panel):
                 "Click on a point in the scene, or on a row of the table, for a cluster's story."
             )
             if cluster is None
-            else story(cluster, parameters)
+            else story(cluster, parameters, palette)
         )
         self._table.content = cluster_table(
             clusters,
             picked,
+            palette,
             # A click on the picked one lets it go.
             lambda cluster: sets(self._list, _NONE if cluster.index == picked else _name(cluster)),
         )
@@ -114,22 +122,19 @@ class ExplainPanel(Panel):
             upper=1.0,
             bars=round(1.0 / _STEP),
             threshold=("γ", parameters.gamma),
+            palette=palette,
             marked=cluster.fitness if cluster else None,
         ).svg()
         moved = [1e3 * cluster.mean_displacement for cluster in clusters]
-        self._displacement.content = (
-            Histogram(
-                title="Mean displacement [mm]",
-                values=[
-                    (value, cluster.label) for value, cluster in zip(moved, clusters, strict=True)
-                ],
-                upper=upper_limit([*moved, 2e3 * parameters.delta]),
-                bars=_BARS,
-                threshold=("δ", 1e3 * parameters.delta),
-                marked=1e3 * cluster.mean_displacement if cluster else None,
-            ).svg()
-            + legend()
-        )
+        self._displacement.content = Histogram(
+            title="Mean displacement [mm]",
+            values=[(value, cluster.label) for value, cluster in zip(moved, clusters, strict=True)],
+            upper=upper_limit([*moved, 2e3 * parameters.delta]),
+            bars=_BARS,
+            threshold=("δ", 1e3 * parameters.delta),
+            palette=palette,
+            marked=1e3 * cluster.mean_displacement if cluster else None,
+        ).svg() + legend(palette)
 
     def _choices(self, indices: dict[str, int | None], picked: int | None) -> None:
         options = tuple(indices)

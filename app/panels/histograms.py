@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from app.colours import PICKED, css
-from app.panels.cluster_story import FILLS
+from app.palettes import Palette
+from app.panels.cluster_story import fills
 from estimator import Label
 
 _WIDTH, _HEIGHT = 300, 98
@@ -23,6 +24,7 @@ class Histogram:
         upper: end of the last bar, which takes what lies beyond it too.
         bars: how many there are.
         threshold: its symbol and its value.
+        palette: of the drawing.
         marked: the value that a mark stands below, None for none.
     """
 
@@ -31,6 +33,7 @@ class Histogram:
     upper: float
     bars: int
     threshold: tuple[str, float]
+    palette: Palette
     marked: float | None = None
 
     def counts(self) -> list[Counter[Label]]:
@@ -74,7 +77,7 @@ class Histogram:
         drawn: list[str] = []
         for number, bar in enumerate(counts):
             base = float(_BOTTOM)
-            for label, fill in FILLS.items():
+            for label, fill in fills(self.palette).items():
                 height = bar[label] / highest * (_BOTTOM - _TOP)
                 base -= height
                 if height:

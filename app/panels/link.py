@@ -23,8 +23,9 @@ class CopyLink(LatestWins):
         if place is not None:
             copy_link(workbench.client, place.token())
             workbench.client.add_notification(
-                "Link copied",
-                "It leads to this recording, frame, camera and parameters.",
+                "Link",
+                "To this recording, frame, camera and parameters. It is copied, or shown to be "
+                "copied where the browser keeps its clipboard closed.",
                 auto_close_seconds=5,
             )
 

@@ -12,7 +12,7 @@ from app.errors import InputError, UserError
 from app.estimates import Estimates
 from app.exports.offline_page import ExportEndedError, offline_page
 from app.file_names import safe
-from app.library import Opened
+from app.library import Entry, Library, Opened
 from app.panel import Desk, Panel
 from app.places import Place
 from app.scene.views import THREE_D
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger(__name__)
 _TITLE = "Offline page"
 _QUIET = 0.02  # seconds for which nobody has waited for an estimate, before the next frame
+_PATIENCE = 0.5  # seconds after which it goes on all the same
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class SaveOfflinePage(LatestWins):
         """Begin to make it, where there is a recording; InputError where one is being made."""
         place = workbench.place()
         if workbench.opened is not None and place is not None:
-            self.panel.begin(workbench.opened, place, workbench.estimates)
+            self.panel.begin(workbench.library, workbench.opened.entry, place, workbench.estimates)
 
 
 class OfflinePagePanel(Panel):
@@ -53,43 +54,55 @@ class OfflinePagePanel(Panel):
             hint="All frames as one HTML file, which plays in any browser without network",
         )
 
+        command = desk.client.gui.add_command("Save offline page", icon=viser.Icon.MOVIE)
+
         @button.on_click
         async def _(_: viser.GuiEvent) -> None:
             desk.post(SaveOfflinePage(self))
 
-    def begin(self, opened: Opened, place: Place, estimates: Estimates) -> None:
+        @command.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            desk.post(SaveOfflinePage(self))
+
+    def begin(self, library: Library, entry: Entry, place: Place, estimates: Estimates) -> None:
         """Make the page of a recording in a thread of its own, as it is seen from a place.
+
+        The recording stays open for it, whatever the session opens meanwhile.
 
         Raises:
             InputError: one is being made already.
+            RecordingError: the recording cannot be opened.
         """
         if self._thread is not None and self._thread.is_alive():
             raise InputError("An offline page is being made already; wait until it is there.")
         self._ended.clear()
         self._thread = threading.Thread(
             target=self._make,
-            args=(opened, place, estimates),
+            args=(library, library.open(entry), place, estimates),
             name="offline page",
-            daemon=True,
-        )
+        )  # not a daemon: it must not be cut off inside of Open3D when the program ends
         self._thread.start()
 
-    def close(self) -> None:
-        """End what is being made of the recording."""
+    def leave(self) -> None:
+        """End what is being made, before its next frame."""
         self._ended.set()
-        if self._thread is not None:
-            self._thread.join(timeout=10.0)
 
-    def _make(self, opened: Opened, place: Place, estimates: Estimates) -> None:
+    def _make(self, library: Library, opened: Opened, place: Place, estimates: Estimates) -> None:
+        try:
+            self._draw(opened, place, estimates)
+        finally:
+            library.release(opened.entry)
+
+    def _draw(self, opened: Opened, place: Place, estimates: Estimates) -> None:
         frames = range(len(opened.recording))
         said = self._client.add_notification(
-            _TITLE, f"Drawing {len(frames)} frames.", loading=True, with_close_button=False
+            _TITLE, "Drawing frame by frame.", loading=True, with_close_button=False
         )
         told = time.monotonic()
 
         def progress(index: int) -> None:
             nonlocal told
-            estimates.foreground.wait_until_quiet(_QUIET)
+            estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
             if self._ended.is_set():
                 raise ExportEndedError
             if time.monotonic() > told + 0.3:

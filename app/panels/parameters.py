@@ -55,6 +55,13 @@ class ParametersPanel(Panel):
                 for name in _DEFAULTS:
                     if name not in self._controls:
                         self._controls[name] = _add_field(gui, name, getattr(parameters, name))
+                folded = frozenset(self._controls) - {*self._sliders, "method"}
+                reset_folded = gui.add_button(
+                    "Reset these",
+                    icon=viser.Icon.RESTORE,
+                    color="gray",
+                    hint="To what the app was started with.",
+                )
             resets = {PARAMETER_INFO[name].symbol: [name] for name in self._sliders}
             resets["All"] = [*_DEFAULTS]
             reset = gui.add_button_group(
@@ -70,6 +77,10 @@ class ParametersPanel(Panel):
         @reset.on_click
         async def _(_: viser.GuiEvent) -> None:
             post(ResetParameters(frozenset(resets[reset.value])))
+
+        @reset_folded.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(ResetParameters(folded))
 
         @history.on_click
         async def _(_: viser.GuiEvent) -> None:
@@ -90,15 +101,13 @@ class ParametersPanel(Panel):
     def meant(self, values: Mapping[str, Any], parameters: Parameters) -> dict[str, Any]:
         """Which of these values a person wants.
 
-        When a field loses the focus, the browser puts what was refused to the nearest value that
-        its control offers. Nobody asked for that: the control shows again what is in use.
+        When a slider's field loses the focus, the browser puts what was refused to the nearest
+        value that the slider offers. Nobody asked for that: it shows again what is in use.
         """
         clamped = {
             name
             for name in self._refused & set(values)
-            if isinstance(
-                control := self._controls[name], viser.GuiNumberHandle | viser.GuiSliderHandle
-            )
+            if isinstance(control := self._controls[name], viser.GuiSliderHandle)
             and values[name] in (control.min, control.max)
         }
         for name in clamped:
@@ -185,18 +194,16 @@ def _add_slider(gui: viser.GuiApi, name: str, value: float) -> Any:  # noqa: ANN
 def _add_field(gui: viser.GuiApi, name: str, value: Any) -> Any:  # noqa: ANN401 (of any parameter)
     # A label's column breaks longer words anywhere.
     label = name.replace("_", " ").replace("correspondence", "corresp.")
-    info = PARAMETER_INFO[name]
     if name == "method":
         return gui.add_dropdown(label, method_names(), initial_value=value, hint=_hint(name))
     if isinstance(_DEFAULTS[name], bool):
         return gui.add_checkbox(label, value, hint=_hint(name))
-    whole = not isinstance(_DEFAULTS[name], float)
+    # Without limits of its own, which would change what a person types without a word: what is out
+    # of range is refused in words.
     return gui.add_number(
         label,
         initial_value=_UNSET if value is None else value,
-        min=_UNSET if name in _OPTIONAL else (int(info.low) if whole else info.low),
-        max=int(info.high) if whole else info.high,
-        step=1 if whole else 0.01,
+        step=0.01 if isinstance(_DEFAULTS[name], float) else 1,
         hint=_hint(name) + (f" ({_UNSET}: unset)" if name in _OPTIONAL else ""),
     )
 

@@ -18,7 +18,7 @@ from app.panels.playback_wishes import (
 )
 from app.panels.timeline_strip import strip
 from app.playback_clock import SPEEDS, Playback
-from app.wishes import Seek, Step, TogglePlay
+from app.wishes import TogglePlay, seek, step
 
 _JUMPS = {"Previous": -1, "Next": 1}
 
@@ -66,7 +66,7 @@ class PlaybackPanel(Panel):
         @self._slider.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
-                post(Seek(self._slider.value))
+                post(seek(self._slider.value))
 
         @self._play.on_click
         async def _(_: viser.GuiEvent) -> None:
@@ -74,7 +74,7 @@ class PlaybackPanel(Panel):
 
         @steps.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(Step(STEPS[steps.value]))
+            post(step(STEPS[steps.value]))
 
         @jumps.on_click
         async def _(_: viser.GuiEvent) -> None:
@@ -102,6 +102,7 @@ class PlaybackPanel(Panel):
         self._slider.max = last
         self._range.max = max(last, 1)
         self._range.value = (0, max(last, 1))
+        self._range.visible = last > 0
         self._arrived = False
 
     def show(self, shown: Shown) -> None:
@@ -118,7 +119,10 @@ class PlaybackPanel(Panel):
         self._play.label = "Pause" if shown.playing else "Play"
         self._play.icon = Icon.PLAYER_PAUSE if shown.playing else Icon.PLAYER_PLAY
         self._strip.content = strip(
-            shown.timeline, shown.playback, sets_along(self._slider, len(stamps) - 1)
+            shown.timeline,
+            shown.playback,
+            shown.settings.palette,
+            sets_along(self._slider, len(stamps) - 1),
         )
         self._follow(shown.playback)
 

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any, Self
 import viser
 from viser import Icon
 
-from app.errors import InputError
 from app.mailbox import Wish
 from app.playback_clock import SPEEDS
 from app.timeline import neighbour
-from app.wishes import LatestWins, Seek, Step, TogglePlay
+from app.wishes import LatestWins, TogglePlay, seek, step
 
 if TYPE_CHECKING:
     from app.workbench import Workbench
@@ -44,7 +43,7 @@ class JumpToMotion(LatestWins):
     direction: int
 
     def fulfil(self, workbench: "Workbench") -> None:
-        """Go there; InputError says that there is no such place."""
+        """Go there, or say that there is no such place."""
         timeline = workbench.timeline()
         if timeline is None or workbench.opened is None:
             return
@@ -53,8 +52,10 @@ class JumpToMotion(LatestWins):
             where = "after" if self.direction > 0 else "before"
             known = workbench.opened.recording.has_truth
             far = "" if known else " in the frames estimated so far"
-            raise InputError(f"Nothing begins to move {where} this frame{far}.")
-        workbench.seek(frame)
+            said = f"Nothing begins to move {where} this frame{far}."
+            workbench.client.add_notification("Motion", said, auto_close_seconds=5)
+        else:
+            workbench.seek(frame)
 
 
 @dataclass(frozen=True)
@@ -111,14 +112,14 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
             post(wish)
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
-    add("One frame back", Step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
-    add("One frame on", Step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
-    add("One frame back (arrow)", Step(-1), "arrowleft")
-    add("One frame on (arrow)", Step(1), "arrowright")
-    add("Ten frames back", Step(-10), "arrowleft", "shift")
-    add("Ten frames on", Step(10), "arrowright", "shift")
-    add("First frame", Seek(0), "home", icon=Icon.PLAYER_SKIP_BACK)
-    add("Last frame", Seek(_LAST), "end", icon=Icon.PLAYER_SKIP_FORWARD)
+    add("One frame back", step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
+    add("One frame on", step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
+    add("One frame back (arrow)", step(-1), "arrowleft")
+    add("One frame on (arrow)", step(1), "arrowright")
+    add("Ten frames back", step(-10), "arrowleft", "shift")
+    add("Ten frames on", step(10), "arrowright", "shift")
+    add("First frame", seek(0), "home", icon=Icon.PLAYER_SKIP_BACK)
+    add("Last frame", seek(_LAST), "end", icon=Icon.PLAYER_SKIP_FORWARD)
     add("Next motion", JumpToMotion(1), "M", icon=Icon.RUN)
     add("Previous motion", JumpToMotion(-1), "M", "shift", icon=Icon.RUN)
     add("Slower", ChangeSpeed(-1), "J", "shift")

@@ -10,6 +10,7 @@ from app.page_script import run
 
 _MARK = "tofscope-plots"  # class of the element whose later siblings are the plots
 _PLOT = f":has(> .{_MARK}) ~ * .u-over"
+_PALE = f":has(> .{_MARK}) ~ * .uplot canvas"
 
 _SCRIPT = """
 window.tofscopePlots = {field: '%(field)s', start: %(start)r, end: %(end)r};
@@ -19,9 +20,7 @@ if (!window.tofscopePlotsListen) {
     const plot = event.target.closest('.u-over');
     if (!plot || !plot.matches('%(plot)s')) return;
     const {field, start, end} = window.tofscopePlots;
-    let time = Math.round(1e3 * window.tofscopeAlong(event, plot, start, end)) / 1e3;
-    const shown = document.getElementById(field)?.value;
-    if (parseFloat(shown) === time) time += time < end ? 1e-3 : -1e-3;
+    const time = window.tofscopeAlong(event, plot, start, end);
     window.tofscopeSet(field, time.toFixed(3));
   });
 }
@@ -40,10 +39,17 @@ def seek_by_clicks(client: viser.ClientHandle, field: str, start: float, end: fl
     run(client, _SCRIPT % {"field": field, "start": start, "end": end, "plot": _PLOT})
 
 
-def cursor(share: float) -> str:
-    """HTML that draws a line in the plots after it, at this share of their width from the left."""
+def cursor(share: float, *, pale: bool) -> str:
+    """HTML that draws a line in the plots after it.
+
+    Args:
+        share: of the plots' width, from the left, at which the line is.
+        pale: whether the plots are drawn pale, since what they show does not hold any more.
+    """
+    faded = f"{_PALE} {{opacity: 0.25}}" if pale else ""
     return (
         f'<span class="{_MARK}"></span><style>{_PLOT} {{cursor: pointer}} {_PLOT}::after {{'
         f"content: ''; position: absolute; top: 0; bottom: 0; left: {100 * share:.3f}%; "
-        "border-left: 1.5px solid currentColor; opacity: 0.6; pointer-events: none}</style>"
+        "border-left: 1.5px solid currentColor; opacity: 0.6; pointer-events: none} "
+        f"{faded}</style>"
     )

@@ -15,7 +15,7 @@ from app.survey import Survey
 
 _HEIGHT = 58  # pixels
 _MEANS = {
-    "angle_deg": "Angle [°]",
+    "angle_deg": "Angle dev. [°]",
     "velocity_error": "Vel. [m/s]",
     "coverage": "Coverage",
     "precision": "Precision",

@@ -13,6 +13,7 @@ from app.library import Opened
 from app.panel import Desk, Panel, Shown
 from app.panels.plot_clicks import cursor, seek_by_clicks
 from app.panels.plot_list import PLOTS, PlotSpec, summary
+from app.panels.time_field import TimeField
 from app.survey import Survey
 from app.survey_csv import to_csv
 from app.wishes import LatestWins
@@ -36,19 +37,6 @@ class ShowSurvey(LatestWins):
     def fulfil(self, workbench: "Workbench") -> None:
         """Plot it."""
         self.panel.plot(self.asked, self.survey)
-
-
-@dataclass(frozen=True)
-class SeekTime(LatestWins):
-    """Go to the frame that is nearest to this time, in seconds from the start."""
-
-    seconds: float
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Go there."""
-        if workbench.opened is not None:
-            stamps = workbench.opened.recording.stamps
-            workbench.seek(int(np.argmin(np.abs(stamps - stamps[0] - self.seconds))))
 
 
 @dataclass(frozen=True)
@@ -92,31 +80,26 @@ class PlotsPanel(Panel):
             for plot in PLOTS:
                 self._headings.append(gui.add_html(""))
                 self._plots.append(plot.add_to(gui, self._colours, with_times=plot is PLOTS[-1]))
-            self._time = gui.add_number(
-                "Go to [s]",
-                0.0,
-                min=0.0,
-                step=0.001,
-                hint="Seconds from the start; a click in a plot goes there, too.",
-            )
+            self._time = TimeField(desk)
             save = gui.add_button("Save as CSV", icon=viser.Icon.DOWNLOAD, color="gray")
 
-        # Coroutines run at once, before anything can change a control's value again.
-        @self._time.on_update
-        async def _(event: viser.GuiEvent) -> None:
-            if event.client_id is not None:
-                desk.post(SeekTime(self._time.value))
+        command = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
 
+        # Coroutines run at once, before anything can change a control's value again.
         @save.on_click
         async def _(_: viser.GuiEvent) -> None:
+            desk.post(SavePlots(self))
+
+        @command.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
             desk.post(SavePlots(self))
 
     def open(self, opened: Opened) -> None:
         """Prepare for a recording's time and truth."""
         recording = opened.recording
         end = _seconds(recording.stamps)
-        self._time.max = end
-        seek_by_clicks(self._desk.client, self._time._impl.uuid, 0.0, end)
+        self._time.open(opened)
+        seek_by_clicks(self._desk.client, self._time.field, 0.0, end)
         for plot, heading, handle in self._each():
             heading.visible = handle.visible = recording.has_truth or not plot.needs_truth
             handle.data = (np.array([0.0, end]), *[np.full(2, np.nan)] * len(plot.lines))
@@ -139,7 +122,8 @@ class PlotsPanel(Panel):
             )
         stamps = shown.opened.recording.stamps
         share = (stamps[shown.frame] - stamps[0]) / _seconds(stamps)
-        self._cursor.content = cursor(float(share))
+        self._cursor.content = cursor(float(share), pale=self.survey is None)
+        self._time.show(shown)
         colours, before = shown.settings.palette, self._colours
         self._colours = colours
         for plot, heading, handle in self._each():

@@ -1,5 +1,6 @@
 """Parameters under names and in files: saved, loaded, deleted."""
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -8,8 +9,7 @@ import viser
 from viser import Icon
 
 from app.errors import InputError
-from app.library import Opened
-from app.panel import Desk, Panel
+from app.panel import Desk, Panel, Shown
 from app.parameter_files import from_text, to_text
 from app.presets import Presets, preset_folder
 from app.wishes import LatestWins
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from app.workbench import Workbench
 
 _NONE: str = "(none saved yet)"
+_AGE = 2.0  # seconds after which they are listed again
 _LARGEST = 100_000  # bytes of a file of parameters
 
 
@@ -68,6 +69,7 @@ class PresetsPanel(Panel):
     def __init__(self, desk: Desk) -> None:
         gui, post = desk.client.gui, desk.post
         self._presets = Presets(preset_folder())
+        self._listed_at = -_AGE
         self._actions: dict[str, Callable[[Workbench, str], None]] = {
             "Load": self._load,
             "Save": self._save,
@@ -107,34 +109,52 @@ class PresetsPanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(SaveParameters())
 
+        command = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
+
+        @command.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            post(SaveParameters())
+
         @self._upload.on_upload
         async def _(_: viser.GuiEvent) -> None:
             file = self._upload.value
             post(OpenParameters(file.name, file.content))
 
-    def open(self, opened: Opened) -> None:
-        """List what is there."""
-        self._show(self._list.value)
+    def show(self, shown: Shown) -> None:
+        """List what is there now: other sessions save and delete, too."""
+        if time.monotonic() > self._listed_at + _AGE:
+            self._show(self._list.value)
 
     def use(self, workbench: "Workbench", action: str, name: str) -> None:
         """Load, save or delete a preset; InputError says why it cannot be."""
-        if name != _NONE:
+        if name == _NONE:
+            return
+        try:
             self._actions[action](workbench, name)
+        finally:
+            self._show(self._list.value)
 
     def _load(self, workbench: "Workbench", name: str) -> None:
         workbench.set_parameters(self._presets.load(name))
         self._name.value = name
 
     def _save(self, workbench: "Workbench", name: str) -> None:
+        if not name:
+            raise InputError("Type a name first, under which the parameters are saved.")
+        replaced = name in self._presets.names()
         self._presets.save(name, workbench.parameters)
         self._show(name)
+        if replaced:
+            said = f"{name} was there already; it holds these parameters now."
+            workbench.client.add_notification("Preset replaced", said, auto_close_seconds=8)
 
     def _delete(self, workbench: "Workbench", name: str) -> None:
         del workbench
         self._presets.delete(name)
-        self._show(_NONE)
 
     def _show(self, chosen: str) -> None:
-        names = self._presets.names() or [_NONE]
-        self._list.options = tuple(names)
+        names = tuple(self._presets.names()) or (_NONE,)
+        self._listed_at = time.monotonic()
+        if names != self._list.options:
+            self._list.options = names
         self._list.value = chosen if chosen in names else names[0]

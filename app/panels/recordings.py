@@ -1,5 +1,7 @@
 """The list of recordings, and what is known of the one that is open."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from html import escape
 
 import viser
@@ -18,12 +20,29 @@ class RecordingsPanel(Panel):
         self._list = gui.add_dropdown(
             "Recording", labels, hint="The recordings of the opened files and folders."
         )
-        self._about = gui.add_html(_line("No recording is open."))
+        self._about = gui.add_html(_line("Opening …"))
 
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
                 post(OpenRecording(self._list.value))
+
+    @contextmanager
+    def opening(self, label: str, before: Opened | None) -> Iterator[None]:
+        """Say that a recording is being opened, which may take a while.
+
+        Args:
+            label: of the recording.
+            before: what is open, and stays open if the other cannot be opened.
+        """
+        self._about.content = _line(f"Opening {escape(label)} …")
+        try:
+            yield
+        except Exception:
+            self._about.content = _line("No recording is open.")
+            if before is not None:
+                self.open(before)
+            raise
 
     def open(self, opened: Opened) -> None:
         """Say what is open."""
@@ -46,7 +65,8 @@ def describe(opened: Opened) -> list[str]:
     seconds = recording.stamps[-1] - recording.stamps[0] if len(recording) else 0.0
     count = len(recording.sensors)
     sensors = "1 sensor" if count == 1 else f"{count} sensors"
-    lines.append(f"{sensors}, {len(recording)} frames, {seconds:.1f} s")
+    frames = "1 frame" if len(recording) == 1 else f"{len(recording)} frames"
+    lines.append(f"{sensors}, {frames}, {seconds:.1f} s")
     lines.append(f"Fixed frame: {recording.fixed_frame}")
     return lines
 

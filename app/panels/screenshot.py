@@ -98,7 +98,7 @@ class ScreenshotPanel(Panel):
             color="gray",
             hint="Both views side by side in one PNG, as papers show them",
         )
-        with gui.add_folder("Picture", expand_by_default=False):
+        with gui.add_folder("Screenshot options", expand_by_default=False):
             size = gui.add_dropdown("Size", (_AS_SHOWN, *_SIZES), hint="Of one view, in pixels.")
             scale = gui.add_dropdown(
                 "Scale", tuple(_SCALES), hint="Pixels for each pixel of the size, for print."
@@ -117,13 +117,13 @@ class ScreenshotPanel(Panel):
                 )
             )
 
-        @shown.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            take(None)
-
-        @both.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            take(THREE_D, TOP)
+        for button, views, icon in (
+            (shown, (None,), viser.Icon.CAMERA),
+            (both, (THREE_D, TOP), viser.Icon.COLUMNS_2),
+        ):
+            button.on_click(lambda _, views=views: take(*views))
+            command = gui.add_command(button.label, icon=icon)
+            command.on_trigger(lambda _, views=views: take(*views))
 
 
 def file_name(recording: str, frame: int, views: tuple[str | None, ...] = (None,)) -> str:

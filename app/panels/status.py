@@ -76,7 +76,7 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
         Fact("Interval", _number(pair.interval, ".3f", " s")),
         Fact("Estimate", _number(pair.milliseconds, ".1f", " ms")),
         Fact("Truth", _number(speed, ".3f", " m/s"), colours.truth),
-        Fact("Angle error", _number(angle, ".1f", "°")),
+        Fact("Angle deviation", _number(angle, ".1f", "°")),
         Fact("Vel. error", _number(velocity, ".3f", " m/s")),
     ]
 

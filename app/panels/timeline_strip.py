@@ -1,30 +1,32 @@
 """A slim picture of the timeline, below the frame slider."""
 
-from app.colours import FLOW, css
+from app.colours import css
+from app.palettes import Palette
 from app.playback_clock import Playback
 from app.timeline import Timeline
 
-_GAP = "#e8590c"
-_EMPTY = "#868e96"
+_GAP = 4  # number of the category whose colour gaps have
 _WIDTH = 1000  # of the drawing, stretched to the slider's
 
 
-def strip(timeline: Timeline, playback: Playback, attributes: str) -> str:
+def strip(timeline: Timeline, playback: Playback, palette: Palette, attributes: str) -> str:
     """HTML: motion, gaps and empty frames along the frames, what is not played pale.
 
     Args:
         timeline: of the recording.
         playback: how it is played.
+        palette: of the drawing.
         attributes: of the picture, which say what a click in it does.
     """
     x = _Scale(timeline.count)
-    marks = [_bar(x(a), x(b), 2, 8, css(FLOW)) for a, b in timeline.moving]
-    marks += [_bar(x(a), x(b), 4, 4, _EMPTY) for a, b in timeline.empty]
-    marks += [_bar(x(k - 0.5), x(k - 0.5), 0, 12, _GAP) for k in timeline.gaps]
+    flow, nothing, gap = css(palette.flow), css(palette.unassigned), css(palette.category(_GAP))
+    marks = [_bar(x(a), x(b), 2, 8, flow) for a, b in timeline.moving]
+    marks += [_bar(x(a), x(b), 4, 4, nothing) for a, b in timeline.empty]
+    marks += [_bar(x(k - 0.5), x(k - 0.5), 0, 12, gap) for k in timeline.gaps]
     base = _bar(0, _WIDTH, 5, 2, "currentColor", 0.25)
     shown = _bar(x(playback.first), x(playback.last), 5, 2, "currentColor", 0.6)
-    legend = [("moving", css(FLOW), len(timeline.moving)), ("gap", _GAP, len(timeline.gaps))]
-    legend.append(("empty", _EMPTY, len(timeline.empty)))
+    legend = [("moving", flow, len(timeline.moving)), ("gap", gap, len(timeline.gaps))]
+    legend.append(("empty", nothing, len(timeline.empty)))
     said = "".join(_key(name, colour) for name, colour, number in legend if number)
     # The strip lies below the track of viser's slider, between its label and its number.
     return (

@@ -1,6 +1,7 @@
 """Where the camera stands, and how things are drawn: views, colours, sizes, layers."""
 
-from typing import Literal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 import viser
@@ -14,6 +15,9 @@ from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
 from app.theme import dress
 from app.wishes import CameraMoved, ChangeView, Look
 
+if TYPE_CHECKING:
+    from app.workbench import Workbench
+
 _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
     THREE_D: "1",
     TOP: "2",
@@ -21,6 +25,22 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
     ROBOT: "4",
     FIT: "F",
 }
+
+
+@dataclass(frozen=True)
+class ToggleDark:
+    """Dark where it is light, and the other way round, this many times."""
+
+    times: int = 1
+
+    def after(self, earlier: Self) -> Self:
+        """All the times."""
+        return type(self)(earlier.times + self.times)
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Draw so."""
+        if self.times % 2:
+            workbench.change_view({"dark": not workbench.settings.dark})
 
 
 class ViewPanel(Panel):
@@ -39,7 +59,7 @@ class ViewPanel(Panel):
     def show(self, shown: Shown) -> None:
         """Dress the page in light or dark."""
         if shown.settings.dark != self._dark:
-            self._dark = shown.settings.dark
+            self._dark = self._dark_box.value = shown.settings.dark
             dress(self._gui, self._dark)
 
     def _add_views(self, camera: viser.CameraHandle) -> None:
@@ -75,8 +95,10 @@ class ViewPanel(Panel):
             initial_value=self._settings.arrow_colours,
             hint="What the colour of an arrow says; the legend says which is which.",
         )
-        dark = self._gui.add_checkbox("Dark", self._settings.dark)
+        dark = self._dark_box = self._gui.add_checkbox("Dark", self._settings.dark)
         legend = self._gui.add_checkbox("Legend", self._settings.legend)
+        toggle = self._gui.add_command("Dark or light", icon=Icon.MOON)
+        toggle.on_trigger(lambda _: self._post(ToggleDark()))
         self._connect(colours, "colours", PALETTES)
         self._connect(arrows, "arrow_colours", ARROW_COLOURS)
         self._connect(dark, "dark", (False, True))

@@ -37,7 +37,7 @@ from recordings import Recording
 _NODES = {
     "Robot": (ROOT,),
     "Sensors": (SENSORS,),
-    "Fields of view": (FRUSTUMS,),
+    "Frustums": (FRUSTUMS,),
     "Source": (SOURCE_NODE,),
     "Target": (TARGET_NODE,),
     "Flow": (FLOW_NODE, SECOND_FLOW_NODE),

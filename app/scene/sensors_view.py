@@ -6,7 +6,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.colours import FIELD_OF_VIEW, SENSOR
+from app.colours import FRUSTUM, SENSOR
 from app.palettes import Palette
 from app.scene.placing import place
 from app.scene.shapes import ring_through
@@ -50,11 +50,11 @@ class SensorsView:
             self._ringed = True
 
     def highlight(self, seeing: Iterable[int], palette: Palette) -> None:
-        """Draw the fields of view of those sensors that see something moving as the flow is."""
+        """Draw the frustums of those sensors that see something moving as the flow is."""
         seeing = set(seeing)
         for index, frustum in enumerate(self._frustums):
             sees = index in seeing
-            frustum.color = palette.flow if sees else palette.field_of_view
+            frustum.color = palette.flow if sees else palette.frustum
             frustum.thickness = self._thicker * (_SEEING if sees else _THICKNESS)
 
     def thicken(self, factor: float) -> None:
@@ -89,7 +89,7 @@ def _add_frustum(scene: viser.SceneApi, sensor: RecordedSensor) -> viser.CameraF
         scale=_DEPTH * float(np.cbrt(half_width * half_height / 3)),
         thickness=_THICKNESS,
         thickness_units="screen",
-        color=FIELD_OF_VIEW,
+        color=FRUSTUM,
         visible=False,
         cast_shadow=False,
         receive_shadow=False,

@@ -9,7 +9,7 @@ STATIONARY, UNASSIGNED = "Stationary points", "Unassigned points"
 LAYERS = (
     "Robot",
     "Sensors",
-    "Fields of view",
+    "Frustums",
     "Source",
     STATIONARY,
     UNASSIGNED,

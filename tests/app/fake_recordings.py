@@ -44,7 +44,7 @@ class FakeRecording:
         self.moving = grid([0, 0.8, 0.7])
 
     def __len__(self):
-        return FRAMES
+        return len(self.stamps)
 
     def close(self):
         self.closed = True

@@ -4,6 +4,7 @@ from typing import Any
 
 from app.estimates import Estimates
 from app.library import Opened
+from app.outlook import Outlook
 from app.panel import Desk, Shown
 from app.playback_clock import Playback
 from app.scene.legend import Legend
@@ -33,6 +34,6 @@ def shown(opened: Opened, frame: int = 20, parameters: Parameters | None = None)
         picked=None,
         playing=False,
         playback=Playback(0, len(opened.recording) - 1),
-        timeline=Estimates().timeline(opened, parameters),
+        timeline=Outlook(Estimates(), Surveys(Estimates())).timeline(opened, parameters),
         seeking=False,
     )

@@ -44,3 +44,24 @@ def test_work_that_fails_has_ended():
     with pytest.raises(ValueError, match="broken"), foreground:
         raise ValueError("broken")
     foreground.wait_until_quiet(0.0)
+
+
+def test_it_waits_no_longer_than_it_is_told_also_where_it_is_never_quiet():
+    foreground, begun, ended = Foreground(), threading.Event(), threading.Event()
+
+    def play():
+        while not ended.wait(0.02):
+            with foreground:
+                begun.set()
+                time.sleep(0.02)
+
+    thread = threading.Thread(target=play, daemon=True)
+    thread.start()
+    assert begun.wait(10)
+    begin = time.monotonic()
+    foreground.wait_until_quiet(0.6, at_most=0.3)
+    assert 0.25 < time.monotonic() - begin < 3.0
+    ended.set()
+    thread.join()
+    with foreground:
+        foreground.wait_until_quiet(0.6, at_most=0.1)

@@ -77,5 +77,5 @@ def test_wrong_files_are_one_sentence(text: str, said: str):
 
 
 def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path):
-    with pytest.raises(InputError, match="cannot be read as parameters"):
+    with pytest.raises(InputError, match=r"^There is no file .*none\.json; check the spelling\.$"):
         parsed("--parameters", str(tmp_path / "none.json"))

@@ -51,3 +51,13 @@ def test_no_change_is_not_remembered():
     history = ParameterHistory()
     changed(history, START, 0.0, delta=START.delta)
     assert history.undo(START) is None
+
+
+def test_what_is_no_drag_is_a_change_of_its_own():
+    history = ParameterHistory()
+    first = changed(history, START, 0.0, delta=0.1)
+    copied = changed(history, first, None, delta=0.2)
+    last = changed(history, copied, 0.2, delta=0.3)
+    assert history.undo(last) == copied
+    assert history.undo(copied) == first
+    assert history.undo(first) == START

@@ -8,6 +8,7 @@ import pytest
 from app.estimates import Estimates
 from app.library import Library
 from app.panels.presets import OpenParameters
+from app.presets import Presets, preset_folder
 from app.reloads import Reloads
 from app.session import Session, Shared
 from estimator import Parameters
@@ -70,6 +71,57 @@ def test_a_preset_is_saved_loaded_and_deleted(session, client):
     until(shows(client, "δ", 0.3))
     client.press_group("Delete")
     until(shows(client, "Preset", "(none saved yet)"))
+
+
+def test_a_preset_that_another_saved_is_listed_and_one_that_is_replaced_is_told(session, client):
+    Presets(preset_folder()).save("theirs", Parameters(n=3))
+
+    def listed():
+        client.change("Step", "+1")  # whatever makes the page be shown again
+        time.sleep(0.3)
+        return "theirs" in client.control("Preset").options
+
+    until(listed)
+    change(client, "δ", 0.3)
+    client.change("Name", "theirs")
+    client.press_group("Save")
+    until(lambda: any("theirs was there already" in n for n in client.notifications))
+    assert Presets(preset_folder()).load("theirs") == Parameters(delta=0.3)
+    Presets(preset_folder()).delete("theirs")
+    client.press_group("Load")
+    until(lambda: any("There is no file" in n for n in client.notifications))
+    until(shows(client, "Preset", "(none saved yet)"))
+
+
+def test_a_new_preset_is_no_replaced_one_and_one_without_a_name_is_none(session, client):
+    client.press_group("Save")
+    until(lambda: any("Type a name first" in n for n in client.notifications))
+    client.change("Name", "mine")
+    client.press_group("Save")
+    until(shows(client, "Preset", "mine"))
+    assert not any("was there already" in n for n in client.notifications)
+
+
+def test_fields_refuse_in_words_what_is_out_of_range_and_are_reset_together(session, client):
+    for label, value, said in (
+        ("min cluster size", 1, "min_cluster_size must be between 2 and 100000 points, got 1."),
+        ("min samples", -1, "min_samples must be between 1 and 100000 points, got -1."),
+        ("max range", -2.0, "max_range must be between 1e-06 and 1000 m, got -2.0."),
+    ):
+        control = client.control(label)
+        assert (control.min, control.max) == (None, None)  # by which a browser would change it
+        client.change(label, value)
+        until(lambda said=said: said in client.text())
+        assert control.value == value
+    client.change("δ", 0.3)  # an accepted change brings back what was refused
+    until(shows(client, "min cluster size", 20))
+    until(shows(client, "max range", 4.0))
+    change(client, "min cluster size", 30)
+    change(client, "allow single cluster", True)
+    client.press("Reset these")
+    until(shows(client, "min cluster size", 20))
+    until(lambda: not client.control("allow single cluster").value)
+    assert client.control("δ").value == 0.3
 
 
 def test_a_bad_name_is_told_and_the_session_goes_on(session, client):

@@ -82,6 +82,18 @@ def test_a_range_ends_playback_and_beyond_it_the_recording_does():
     assert clock.advance(9.0) == 4
 
 
+@pytest.mark.parametrize(("asked", "kept"), [((0, 1), (0, 0)), ((-3, 9), (0, 0)), ((7, 2), (0, 0))])
+def test_a_range_is_kept_within_the_recording(asked, kept):
+    clock = PlaybackClock([100.0])
+    clock.change({"first": asked[0], "last": asked[1]}, 0, now=0.0)
+    assert (clock.playback.first, clock.playback.last) == kept
+    clock.play(0, now=0.0)
+    assert clock.advance(0.5) == 0
+    longer = PlaybackClock(STAMPS)
+    longer.change({"first": 3, "last": 1}, 0, now=0.0)
+    assert (longer.playback.first, longer.playback.last) == (1, 1)
+
+
 def test_one_frame_loops_without_haste():
     clock = PlaybackClock([100.0])
     clock.change({"loop": True}, 0, now=0.0)

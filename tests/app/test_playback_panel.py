@@ -8,10 +8,12 @@ import pytest
 
 from app.estimates import Estimates
 from app.library import Library
+from app.panels.playback import PlaybackPanel
 from app.reloads import Reloads
 from app.session import Session, Shared
 from estimator import Parameters
-from tests.app.fake_recordings import FRAMES, SPEED, fake_recording
+from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
+from tests.app.fake_session import desk
 from tests.app.waiting import until
 
 
@@ -92,3 +94,13 @@ def test_a_loop_stays_within_its_range(session, client):
     assert set(seen) == {20, 21, 22}
     assert sum(a > b for a, b in itertools.pairwise(seen)) >= 2
     assert any(button.label == "Pause" for button in client.buttons())
+
+
+def test_of_one_frame_there_is_no_range(client):
+    single = fake_recording()
+    single.stamps = single.stamps[:1]
+    panel = PlaybackPanel(desk(client))
+    panel.open(fake_opened())
+    assert client.control("Range").visible
+    panel.open(fake_opened(single))
+    assert not client.control("Range").visible

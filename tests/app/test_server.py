@@ -8,7 +8,7 @@ from app.errors import InputError
 from app.estimates import Estimates
 from app.library import Library
 from app.reloads import Reloads
-from app.server import Server
+from app.server import Server, _own_address
 from app.session import Shared
 from estimator import Parameters
 from tests.app.fake_recordings import fake_recording
@@ -58,3 +58,22 @@ def test_it_says_nothing_on_the_terminal_and_frees_its_port(shared, capfd):
     server.close()
     Server(shared, "127.0.0.1", port).close()
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(("host", "shown"), [("127.0.0.1", "127.0.0.1"), ("0.0.0.0", "10.1.2.3")])
+def test_others_are_told_an_address_that_is_not_everybodys(shared, monkeypatch, host, shown):
+    monkeypatch.setattr("app.server._own_address", lambda _: "10.1.2.3")
+    server = Server(shared, host, 0)
+    try:
+        assert server.address_for_others == f"http://{shown}:{server.port}"
+        assert server.address == f"http://127.0.0.1:{server.port}"
+    finally:
+        server.close()
+
+
+def test_a_machine_without_a_network_tells_its_name(monkeypatch):
+    def unreachable(*_: Any):
+        raise OSError(101, "Network is unreachable")
+
+    monkeypatch.setattr(socket.socket, "connect", unreachable)
+    assert _own_address("0.0.0.0") == socket.gethostname()

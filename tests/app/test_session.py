@@ -359,6 +359,64 @@ def test_a_bad_recording_at_the_front_does_not_keep_the_others_from_opening(clie
     session.join(10)
 
 
+def test_of_several_bad_recordings_the_first_is_told_and_the_others_are_counted(client, shared):
+    def opener(path):
+        raise RecordingError(f"{path.name} is no recording.")
+
+    library = Library([shared.library.paths[0]], opener)
+    session = Session(client, replace(shared, library=library))
+    until(lambda: client.notifications)
+    assert client.notifications == ["a.mcap is no recording. 2 more could not be opened."]
+    until(lambda: "No recording is open." in client.text())
+    session.close()
+    session.join(10)
+
+
+def test_surveys_are_everybodys_alike(shared):
+    seen, start = [], threading.Barrier(8)
+
+    def look():
+        start.wait()
+        seen.append(shared.surveys)
+
+    threads = [threading.Thread(target=look) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(surveys is shared.surveys for surveys in seen)
+    assert "surveys" in vars(shared)
+
+
+def test_an_export_goes_on_when_another_recording_is_opened(session, client, shared, runs):
+    runs.delay = 0.05
+    client.press("Save offline page")
+    until(lambda: "Drawing frame by frame." in client.notifications)
+    start = time.monotonic()
+    client.change("Recording", "b")
+    until(lambda: client.control("Recording").value == "b" and "Frame" in client.text())
+    until(lambda: len(shared.library._shared) == 2)
+    assert time.monotonic() - start < 5
+    until(lambda: client.downloads)
+    assert client.downloads[0][0] == "a.html"
+    until(lambda: [entry.label for entry in shared.library._shared] == ["b"])
+
+
+def test_the_end_of_a_session_ends_its_export(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    runs.delay = 0.1
+    client.press("Save offline page")
+    until(lambda: "Drawing frame by frame." in client.notifications)
+    start = time.monotonic()
+    session.close()
+    session.join(10)
+    assert time.monotonic() - start < 5
+    until(lambda: "offline page" not in [thread.name for thread in threading.enumerate()])
+    assert client.downloads == []
+    assert shared.library._shared == {}
+
+
 def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
     client.press("Copy A to B")
     until(lambda: "<b>B</b> is shown" in client.text())
@@ -412,6 +470,21 @@ def test_a_and_b_are_undone_apart(session, client):
     until(lambda: client.control("γ").value == 0.7)
 
 
+def test_a_second_copy_to_b_is_undone_as_any_change_of_b(session, client):
+    client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    for value in (0.1, 0.2):
+        client.change("δ", value)
+        until(lambda value=value: f"δ: 0.04 → {value}" in client.text())
+        client.change("Step", "+1")
+        time.sleep(1.1)  # two drags
+    client.press("Copy A to B")
+    until(lambda: client.control("δ").value == 0.04)
+    for value in (0.2, 0.1, 0.04):
+        client.trigger("Undo parameters")
+        until(lambda value=value: client.control("δ").value == value, timeout=5)
+
+
 def test_only_what_is_shown_is_estimated(session, client, runs):
     client.press("Copy A to B")
     until(lambda: "<b>B</b> is shown" in client.text())
@@ -440,3 +513,30 @@ def test_an_error_of_one_estimate_is_told_and_the_other_is_shown(session, client
     until(lambda: any("B has had enough" in n for n in client.notifications))
     assert len(points(client, "second_flow")) == 100
     assert arrow_count(client) == 0
+
+
+def test_the_command_palette_does_what_buttons_do(session, client):
+    client.trigger("Save screenshot")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_frame_0024.png"
+    client.trigger("Save 3D and top view")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_frame_0024_3d_top.png"
+    client.trigger("Save parameters as a file")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "parameters.json"
+    until(lambda: "Computing the whole recording: <" not in client.text())
+    client.trigger("Save plots as CSV")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_plots.csv"
+    client.trigger("Save offline page")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a.html"
+    client.trigger("Dark or light")
+    until(lambda: client.control("Dark").value)
+    client.trigger("Dark or light")
+    until(lambda: not client.control("Dark").value)
+    client.trigger("Compare: copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.trigger("Compare: remove B")
+    until(lambda: "<b>B</b> is shown" not in client.text())

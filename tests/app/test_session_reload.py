@@ -125,13 +125,17 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
     ("token", "sentence"),
     [
         ("nonsense", "The link is damaged"),
-        (Place("zz", 3, Parameters()).token(), "The recording zz is not among those"),
+        (
+            Place("zz", 3, Parameters(n=5, delta=0.01)).token(),
+            "The recording zz is not among those",
+        ),
     ],
 )
 def test_a_link_that_leads_nowhere_is_told(client, shared, runs, token, sentence):
     arrive(client, shared, token)
     assert any(sentence in said for said in client.notifications)
     assert client.control("Recording").value == "a"
+    assert set(runs.parameters) == {Parameters()}
 
 
 def test_the_link_that_is_copied_leads_here(session, client):

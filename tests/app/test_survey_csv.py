@@ -14,7 +14,7 @@ def test_the_file_says_what_it_is_and_holds_a_line_per_frame():
     survey = Survey(opened.recording, Parameters(gamma=0.6))
     survey.put(20, Estimates().estimated(opened, 20, survey.parameters))
     heading, *lines = to_csv(opened.recording, survey).splitlines()
-    assert heading.startswith("# Tofscope; recording fake.mcap; not simulated by Tofscope; n=8;")
+    assert heading.startswith("# Tofscope; recording fake.mcap; measured; n=8;")
     assert "gamma=0.6;" in heading
     assert heading.endswith(f"9 of {FRAMES} frames computed")
     rows = list(csv.DictReader(lines))

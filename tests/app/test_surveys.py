@@ -1,3 +1,4 @@
+import threading
 import time
 
 import numpy as np
@@ -5,6 +6,7 @@ import pytest
 
 import app.estimates
 from app.estimates import Estimates
+from app.survey import Survey
 from app.surveys import Surveys
 from estimator import Parameters
 from recordings import RecordingError
@@ -104,6 +106,33 @@ def test_it_stands_back_while_somebody_waits_for_an_estimate():
         time.sleep(0.3)
         assert listener.told == []
     until(lambda: listener.complete)
+
+
+def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others(monkeypatch):
+    monkeypatch.setattr("app.surveys._PATIENCE", 0.2)
+    estimates, ended = Estimates(), threading.Event()
+    surveys = Surveys(estimates)
+
+    def play():
+        while not ended.is_set():
+            with estimates.foreground:
+                time.sleep(0.05)
+
+    player = threading.Thread(target=play, daemon=True)
+    player.start()
+    found: list[Survey] = []
+    for who, n in enumerate((5, 6)):
+        surveys.ask(who, fake_opened(), Parameters(n=n), found.append)
+    try:
+        until(lambda: len({id(survey) for survey in found}) == 2)
+        first, second = {survey.parameters.n: survey for survey in found}.values()
+        until(lambda: first.done.sum() > 12)
+        assert abs(int(first.done.sum()) - int(second.done.sum())) <= 2
+    finally:
+        ended.set()
+        player.join()
+        for who in range(2):
+            surveys.leave(who)
 
 
 def test_a_broken_frame_is_a_gap():

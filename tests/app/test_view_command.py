@@ -1,3 +1,4 @@
+import re
 import signal
 import socket
 import subprocess
@@ -107,4 +108,8 @@ def test_serving_to_everybody_is_warned_of(tmp_path):
     app.send_signal(signal.SIGINT)
     _, err = app.communicate(timeout=20)
     assert err.startswith("Warning: at 0.0.0.0 everybody")
+    assert "change and delete the presets" in err
+    assert "nothing is encrypted" in err
+    (others,) = re.findall(r"Others find the page at http://(\S+):\d+\.", err)
+    assert others not in {"0.0.0.0", ""}
     assert err.count("\n") == 1

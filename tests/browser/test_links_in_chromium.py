@@ -34,7 +34,7 @@ def test_a_link_leads_another_tab_to_the_same_place(
     tab.set_slider("Frame", "ArrowLeft", times=3)
     seen, frame = move_camera(tab), tab.value("Frame")
     tab.page.get_by_role("button", name="Copy link").click()
-    tab.until(lambda: tab.page.get_by_role("alert").filter(has_text="Link copied").count() > 0)
+    tab.until(lambda: tab.page.get_by_role("alert").filter(has_text="It is copied").count() > 0)
     link = tab.page.evaluate("navigator.clipboard.readText()")
     assert link.startswith(f"{server.address}/?link=")
 

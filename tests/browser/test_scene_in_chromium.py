@@ -75,7 +75,7 @@ def test_the_legend_lies_in_the_lower_left_corner(tab: Tab):
 
 
 def test_the_two_views_of_papers_are_one_file_that_says_what_it_shows(tab: Tab):
-    tab.page.get_by_text("Picture", exact=True).click()
+    tab.page.get_by_text("Screenshot options", exact=True).click()
     tab.row("Size").locator("input").first.click()
     tab.page.get_by_role("option", name="1280 x 720").click()
     tab.page.wait_for_timeout(200)

@@ -27,7 +27,7 @@ def test_it_says_what_it_shows():
     assert "<title>a &lt;b&gt;</title>" in made
     assert "n: 4, gamma: 0.7" in made
     assert "5 to 7 of 39" in made
-    assert "recorded" in made
+    assert "measured" in made
     recording.simulated = True
     assert "<title>a &lt;b&gt; (simulated)</title>" in page(fake_opened(recording), [5])
 

@@ -33,7 +33,8 @@ def test_every_number_of_a_and_b_and_what_lies_between(estimates):
     assert said["Clusters"] == ["5", "5", "+0"]
     assert said["Coverage [%]"] == ["100.0", "100.0", "+0.0"]
     assert said["Precision [%]"] == ["100.0", "20.0", "−80.0"]
-    assert said["Estimate [ms]"] == ["61", "41", "−20"]
+    # They were timed under whatever else went on, which says nothing of A and B.
+    assert not any("ms" in name for name in said)
     # Four patches in five rest, so that the baseline is wrong by 0.15 m/s there.
     assert said["Vel. error [m/s]"] == ["0.000", "0.120", "+0.120"]
 

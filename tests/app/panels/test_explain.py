@@ -2,17 +2,20 @@ import threading
 from dataclasses import replace
 
 import pytest
+from viser._messages import RunJavascriptMessage
 
 from app.colours import PICKED, css
 from app.estimates import Estimates
 from app.panels.cluster_story import cluster_table, story
 from app.panels.explain import ExplainPanel, PickAt, PickCluster
 from app.panels.histograms import Histogram, upper_limit
+from app.scene.settings import ViewSettings
 from estimator import IcpRound, Label, Parameters
 from tests.app.fake_recordings import fake_opened
 from tests.app.fake_session import desk, shown
 
 NAN = float("nan")
+COLOURS = ViewSettings().palette
 
 
 @pytest.fixture(scope="module")
@@ -29,12 +32,12 @@ def moving(clusters):
 
 
 def test_the_story_says_every_margin_and_the_reason(moving):
-    text = story(moving, Parameters(gamma=0.7, delta=0.04, n_min=60))
+    text = story(moving, Parameters(gamma=0.7, delta=0.04, n_min=60), COLOURS)
     assert "100 source and 100 target points" in text
     # 0.15 m/s over eight frames of 1/15 s.
     for said in ("100 / 100", "+40", "1.00", "+0.30", "80 mm", "+40", "none", moving.reason):
         assert said in text
-    below = story(moving, Parameters(gamma=0.7, delta=0.2, n_min=150))
+    below = story(moving, Parameters(gamma=0.7, delta=0.2, n_min=150), COLOURS)
     assert "−50" in below
     assert "−120" in below
 
@@ -43,14 +46,16 @@ def test_removed_inliers_are_those_of_the_rounds_that_removed(moving):
     first = moving.rounds[0]
     part = replace(first, inlier_source=first.inlier_source[:30], fitness=0.3)
     again = replace(moving, rounds=(part, first))
-    assert story(again, Parameters()).count("30 / 100") == 1
-    assert story(again, Parameters()).count("none") == 1
+    assert story(again, Parameters(), COLOURS).count("30 / 100") == 1
+    assert story(again, Parameters(), COLOURS).count("none") == 1
     given_up = replace(again, label=Label.UNASSIGNED)
-    assert "none" not in story(given_up, Parameters())
+    assert "none" not in story(given_up, Parameters(), COLOURS)
 
 
 def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
-    text = story(replace(moving, rounds=(), reason="Unassigned: few <points>."), Parameters())
+    text = story(
+        replace(moving, rounds=(), reason="Unassigned: few <points>."), Parameters(), COLOURS
+    )
     assert "Unassigned: few &lt;points&gt;." in text
     assert "<table" not in text
 
@@ -60,12 +65,14 @@ def no_click(cluster):
 
 
 def test_the_table_marks_the_picked_cluster_alone(clusters, moving):
-    assert cluster_table(clusters, None, no_click).count(css(PICKED)) == 0
-    table = cluster_table([*clusters, replace(moving, index=9, rounds=())], moving.index, no_click)
+    assert cluster_table(clusters, None, COLOURS, no_click).count(css(PICKED)) == 0
+    table = cluster_table(
+        [*clusters, replace(moving, index=9, rounds=())], moving.index, COLOURS, no_click
+    )
     assert table.count(css(PICKED)) == 1
     assert table.count("<tr") == 7
     assert "–" in table
-    assert "No clusters" in cluster_table([], None, no_click)
+    assert "No clusters" in cluster_table([], None, COLOURS, no_click)
 
 
 def test_bars_count_by_label_and_the_last_takes_what_lies_beyond():
@@ -78,14 +85,14 @@ def test_bars_count_by_label_and_the_last_takes_what_lies_beyond():
         (7.0, moving),
         (NAN, still),
     ]
-    counts = Histogram("h", values, 1.0, 5, ("γ", 0.5)).counts()
+    counts = Histogram("h", values, 1.0, 5, ("γ", 0.5), COLOURS).counts()
     assert [bar.total() for bar in counts] == [2, 0, 0, 0, 3]
     assert counts[4] == {still: 2, moving: 1}
 
 
 def test_the_threshold_is_a_line_where_it_belongs():
     def line(threshold):
-        svg = Histogram("h", [], 1.0, 5, ("γ", threshold)).svg()
+        svg = Histogram("h", [], 1.0, 5, ("γ", threshold), COLOURS).svg()
         assert f"γ {threshold:g}" in svg
         return float(svg.split("stroke-dasharray")[0].rsplit('d="M', 1)[1].split()[0])
 
@@ -116,6 +123,32 @@ def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, mo
     assert "<svg" not in client.text()
 
 
+def test_what_moves_has_the_colour_of_the_flow_on_every_page(client, moving):
+    panel, now = ExplainPanel(desk(client)), shown(fake_opened())
+    dark = replace(now, settings=replace(now.settings, dark=True))
+    light, bright = (f'fill="{css(s.settings.palette.flow)}"' for s in (now, dark))
+    panel.show(replace(now, picked=moving.index))
+    assert light in client.text()
+    panel.show(replace(dark, picked=moving.index))
+    assert light not in client.text()
+    assert client.text().count(bright) >= 5  # table, story, two bars and what they mean
+
+
+def test_a_pick_in_the_scene_unfolds_its_story_and_a_miss_does_not(client):
+    class Workbench:
+        def __init__(self, found):
+            self.client, self.found = client, found
+
+        def pick_at(self, origin, direction):
+            return self.found
+
+    for found in (False, True):
+        client.take_sent()
+        PickAt((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)).fulfil(Workbench(found))  # pyright: ignore[reportArgumentType]
+        scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
+        assert ("window.tofscopeUnfold('Explain')" in scripts) is found
+
+
 def test_what_a_person_picks_is_posted(client):
     posted, clicked = [], threading.Event()
 
@@ -138,5 +171,5 @@ def test_rounds_are_told_in_their_order(moving):
     rounds: tuple[IcpRound, ...] = tuple(
         replace(moving.rounds[0], fitness=fitness) for fitness in (0.11, 0.22, 0.93)
     )
-    text = story(replace(moving, rounds=rounds), Parameters())
+    text = story(replace(moving, rounds=rounds), Parameters(), COLOURS)
     assert text.index("0.11") < text.index("0.22") < text.index("0.93")

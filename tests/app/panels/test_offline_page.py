@@ -1,9 +1,11 @@
 import threading
+from typing import Any
 
 import pytest
 
 from app.errors import InputError
 from app.estimates import Estimates
+from app.library import Entry, Opened
 from app.panels.offline_page import OfflinePagePanel
 from app.places import Place
 from estimator import Parameters
@@ -13,13 +15,31 @@ from tests.app.fake_session import desk
 from tests.app.waiting import until
 
 
-def begin(panel: OfflinePagePanel, opened) -> None:
-    panel.begin(opened, Place("a", 0, Parameters()), Estimates())
+class Holding:
+    """A library of one recording, and how many hold it."""
+
+    def __init__(self, recording: Any = None):
+        self.opened, self.users = fake_opened(recording), 0
+
+    def open(self, entry: Entry) -> Opened:
+        assert entry == self.opened.entry
+        self.users += 1
+        return self.opened
+
+    def release(self, entry: Entry) -> None:
+        assert entry == self.opened.entry
+        self.users -= 1
+
+
+def begin(panel: OfflinePagePanel, recording: Any = None) -> Holding:
+    library: Any = Holding(recording)
+    panel.begin(library, library.opened.entry, Place("a", 0, Parameters()), Estimates())
+    return library
 
 
 def test_the_page_arrives_when_it_is_ready(client):
     panel = OfflinePagePanel(desk(client))
-    begin(panel, fake_opened(fake_recording(name="a/b")))
+    begin(panel, fake_recording(name="a/b"))
     until(lambda: client.downloads)
     (name, content), *others = client.downloads
     assert (name, others) == ("a_b.html", [])
@@ -27,7 +47,7 @@ def test_the_page_arrives_when_it_is_ready(client):
     until(lambda: any(said.startswith("a_b.html, ") for said in client.notifications))
 
 
-def test_one_at_a_time_and_none_of_a_recording_that_is_left(client):
+def test_one_at_a_time_which_goes_on_when_its_recording_is_left_and_ends_with_the_client(client):
     recording, waiting, go_on = fake_recording(), threading.Event(), threading.Event()
     cloud = recording.cloud
 
@@ -38,15 +58,21 @@ def test_one_at_a_time_and_none_of_a_recording_that_is_left(client):
 
     recording.cloud = slow
     panel = OfflinePagePanel(desk(client))
-    begin(panel, fake_opened(recording))
+    library = begin(panel, recording)
     assert waiting.wait(30)
     with pytest.raises(InputError, match="being made already"):
-        begin(panel, fake_opened(recording))
-    threading.Timer(0.2, go_on.set).start()
+        begin(panel)
     panel.close()
+    assert library.users == 1
+    panel.leave()
+    go_on.set()
+    until(lambda: library.users == 0)
     assert not client.downloads
-    begin(panel, fake_opened())  # of the next recording
+    panel = OfflinePagePanel(desk(client))
+    library = begin(panel)
+    panel.close()
     until(lambda: client.downloads)
+    until(lambda: library.users == 0)
 
 
 def test_a_broken_recording_is_said_and_the_next_page_can_be_made(client):
@@ -57,8 +83,9 @@ def test_a_broken_recording_is_said_and_the_next_page_can_be_made(client):
 
     recording.cloud = broken
     panel = OfflinePagePanel(desk(client))
-    begin(panel, fake_opened(recording))
+    library = begin(panel, recording)
     until(lambda: "fake.mcap is broken at frame 3." in client.notifications)
-    panel.close()
-    begin(panel, fake_opened())
+    until(lambda: library.users == 0)
+    until(lambda: panel._thread is not None and not panel._thread.is_alive())
+    begin(panel)
     until(lambda: client.downloads)

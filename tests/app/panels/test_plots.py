@@ -9,7 +9,8 @@ from app.colours import css
 from app.estimates import Estimates
 from app.evaluation import evaluate
 from app.panels.plot_list import summary
-from app.panels.plots import PlotsPanel, SavePlots, SeekTime, ShowSurvey
+from app.panels.plots import PlotsPanel, SavePlots, ShowSurvey
+from app.panels.time_field import SeekTime, TimeField
 from app.scene.settings import ViewSettings
 from app.survey import Survey
 from estimator import Parameters
@@ -109,17 +110,58 @@ def test_a_time_leads_to_the_nearest_frame(client):
         def seek(self, frame):
             self.frame = frame
 
-    bench = Workbench()
-    SeekTime(1.0).fulfil(bench)  # pyright: ignore[reportArgumentType]
+    bench: Any = Workbench()
+    field = TimeField(desk(client))
+    SeekTime(field, 1.0).fulfil(bench)
     assert bench.frame == 15
-    SeekTime(1e9).fulfil(bench)  # pyright: ignore[reportArgumentType]
+    SeekTime(field, 1e9).fulfil(bench)
     assert bench.frame == FRAMES - 1
 
 
 def test_the_number_field_posts_a_time(client):
     bench = Bench(client)
     client.change("Go to [s]", 1.25)
-    until(lambda: SeekTime(1.25) in bench.wishes)
+    until(lambda: SeekTime(bench.panel._time, 1.25) in bench.wishes)
+
+
+def test_the_number_field_follows_the_frame_and_leaves_alone_what_is_typed(client):
+    bench = Bench(client)
+    field, at = client.control("Go to [s]"), lambda frame: round(PERIOD * frame, 3)
+    bench.panel.show(shown(bench.opened, frame=24))
+    assert field.value == at(24)
+    client.change("Go to [s]", 1.25)
+    until(lambda: bench.panel._time._typed == 1.25)
+    bench.panel.show(shown(bench.opened, frame=24))  # before the session has gone there
+    assert field.value == 1.25
+    bench.panel._time.arrived(1.2, 18)  # where the first letters lead
+    bench.panel.show(shown(bench.opened, frame=18))
+    assert field.value == 1.25
+    bench.panel._time.arrived(1.25, 19)
+    bench.panel.show(shown(bench.opened, frame=19))
+    assert field.value == 1.25
+    playing = replace(shown(bench.opened, frame=20), playing=True)
+    bench.panel.show(playing)  # a moment after the last letter
+    assert field.value == 1.25
+    bench.panel._time._typed_at -= 10
+    bench.panel.show(playing)
+    assert field.value == at(20)
+    bench.panel.show(shown(bench.opened, frame=19))  # again, and nobody is typing
+    assert field.value == at(19)
+    bench.panel.show(shown(bench.opened, frame=FRAMES - 1))
+    assert field.value <= field.max
+
+
+def test_points_of_what_was_left_are_pale_until_there_are_others(client):
+    bench = Bench(client)
+    bench.fill()
+    bench.panel.show(shown(bench.opened))
+    assert "opacity: 0.25" not in client.text()
+    bench.wishes.clear()
+    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
+    assert "opacity: 0.25" in client.text()
+    bench.fill()
+    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
+    assert "opacity: 0.25" not in client.text()
 
 
 def test_the_file_is_that_of_what_is_plotted(client):

@@ -1,8 +1,11 @@
 from dataclasses import replace
 
-from app.panels.recordings import describe
-from recordings import Provenance
+import pytest
+
+from app.panels.recordings import RecordingsPanel, describe
+from recordings import Provenance, RecordingError
 from tests.app.fake_recordings import fake_opened, fake_recording
+from tests.app.fake_session import desk
 
 
 def test_a_measured_recording_is_described_by_its_size():
@@ -17,3 +20,24 @@ def test_a_simulated_recording_says_so_first():
     fake.simulated = False
     fake.provenance = replace(fake.provenance, simulated=False)
     assert "imulated" not in " ".join(describe(fake_opened(fake)))
+
+
+def test_what_is_being_opened_is_said_and_what_stays_open_after_a_bad_one(client):
+    panel, opened = RecordingsPanel(desk(client)), fake_opened()
+    assert "Opening …" in client.text()
+    with panel.opening("a<b", None):
+        assert "Opening a&lt;b …" in client.text()
+    panel.open(opened)
+    assert "Opening" not in client.text()
+    with pytest.raises(RecordingError), panel.opening("bad", opened):
+        raise RecordingError("bad is no recording.")
+    assert "1 sensor, 40 frames" in client.text()
+    with pytest.raises(RecordingError), panel.opening("bad", None):
+        raise RecordingError("bad is no recording.")
+    assert "No recording is open." in client.text()
+
+
+def test_one_frame_is_one_frame():
+    single = fake_recording()
+    single.stamps = single.stamps[:1]
+    assert describe(fake_opened(single))[0] == "1 sensor, 1 frame, 0.0 s"

@@ -18,8 +18,8 @@ def test_all_numbers_of_a_pair():
     pair = Estimates().estimated(fake_opened(), 20, Parameters())
     numbers = said(replace(pair, milliseconds=61.4))
     assert numbers["Vel. error"] == "0.000 m/s"
-    assert numbers["Angle error"] == "0.0°"
-    del numbers["Vel. error"], numbers["Angle error"]
+    assert numbers["Angle deviation"] == "0.0°"
+    del numbers["Vel. error"], numbers["Angle deviation"]
     assert numbers == {
         "Source": "500",
         "Target": "500",
@@ -45,7 +45,7 @@ def test_without_a_source_it_says_why():
 def test_no_flow_means_no_errors():
     pair = Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5))
     assert said(pair)["Moving"] == "0"
-    assert said(pair)["Angle error"] == "–"
+    assert said(pair)["Angle deviation"] == "–"
     assert said(pair)["Truth"] == "0.150 m/s"
 
 

@@ -67,7 +67,7 @@ def test_sensors_that_see_something_moving_are_highlighted(scene, client, pair):
     assert frustum.color == COLOURS.flow
     thick = frustum.thickness
     scene.show(Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5)))
-    assert frustum.color == COLOURS.field_of_view
+    assert frustum.color == COLOURS.frustum
     assert frustum.thickness < thick
 
 
