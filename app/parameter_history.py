@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, replace
 from typing import Any
 
+from app.comparison import A, B, Comparison
 from estimator import Parameters
 
 _DRAG = 1.0  # seconds; changes of the same parameter closer together than this are one change
@@ -56,6 +57,38 @@ class ParameterHistory:
         other.append(_differences(parameters, changed))
         self._last = _NOTHING  # what follows is a change of its own
         return changed
+
+
+class ParameterHistories:
+    """The changes of A, and those of B."""
+
+    def __init__(self) -> None:
+        self._sides = {A: ParameterHistory(), B: ParameterHistory()}
+
+    def of(self, comparison: Comparison | None) -> ParameterHistory:
+        """Those of the parameters that are edited."""
+        return self._sides[comparison.edited if comparison else A]
+
+    def compare(
+        self,
+        before: Comparison | None,
+        edited_before: Parameters,
+        after: Comparison | None,
+        edited: Parameters,
+    ) -> None:
+        """Remember what another comparison changes: a copy replaces parameters, a switch does not.
+
+        Args:
+            before: the comparison before it.
+            edited_before: the parameters that were edited in it.
+            after: the comparison after it; without one, nothing of B is remembered.
+            edited: the parameters that are edited now.
+        """
+        if after is None:
+            self._sides[B] = ParameterHistory()
+        elif before is not None:
+            replaced = edited_before if before.edited == after.edited else before.other
+            self._sides[after.edited].note(replaced, edited, None)
 
 
 def _differences(before: Parameters, after: Parameters) -> dict[str, Any]:

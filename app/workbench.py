@@ -9,7 +9,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.comparison import A, B, Comparison, compared
+from app.comparison import A, Comparison, compared
 from app.estimates import Estimates, Pair
 from app.framing import Framing
 from app.library import Entry, Library, Opened
@@ -18,7 +18,7 @@ from app.opening import telling_frame
 from app.outlook import Outlook
 from app.page import Page
 from app.panel import Desk, Shown
-from app.parameter_history import ParameterHistory
+from app.parameter_history import ParameterHistories, ParameterHistory
 from app.places import Place
 from app.playback_clock import Playback, PlaybackClock
 from app.scene.legend import Legend
@@ -72,7 +72,7 @@ class Workbench:
         self.frame = 0
         self.comparison: Comparison | None = None
         self._drawn: tuple[Opened, int, Parameters, Comparison | None] | None = None
-        self._histories = {side: ParameterHistory() for side in (A, B)}
+        self._histories = ParameterHistories()
         self._scene = Scene(client, self.settings)
         self._framing = Framing(client, self._scene)
         self._pair: Pair | None = None
@@ -177,12 +177,7 @@ class Workbench:
 
     def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
         """Compare otherwise, or not at all, and edit these parameters."""
-        before = self.comparison
-        if comparison is None:
-            self._histories[B] = ParameterHistory()
-        elif before is not None:  # a copy replaces parameters, a switch does not
-            replaced = self.parameters if before.edited == comparison.edited else before.other
-            self._histories[comparison.edited].note(replaced, edited, None)
+        self._histories.compare(self.comparison, self.parameters, comparison, edited)
         self.comparison, self.parameters = comparison, edited
         self.page.parameters.replace(edited)
 
@@ -262,8 +257,7 @@ class Workbench:
 
     @property
     def _history(self) -> ParameterHistory:
-        """Of the parameters that are edited."""
-        return self._histories[self.comparison.edited if self.comparison else A]
+        return self._histories.of(self.comparison)
 
     def _shown(self, opened: Opened) -> Shown:
         return Shown(
