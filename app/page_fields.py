@@ -36,7 +36,10 @@ if (!window.tofscopeSet) {
   };
   window.tofscopeUnfold = name => {
     for (const arrow of document.querySelectorAll('svg.tabler-icon-chevron-down')) {
-      if (arrow.parentElement.textContent === name) arrow.parentElement.click();
+      const label = arrow.parentElement;
+      if (label.textContent !== name) continue;
+      label.click();
+      setTimeout(() => label.scrollIntoView({behavior: 'smooth'}), 300);  // once it is unfolded
     }
   };
   window.tofscopeAlong = (event, element, start, end) => {
@@ -68,7 +71,7 @@ def set_up_fields(client: viser.ClientHandle) -> None:
 
 
 def unfold(client: viser.ClientHandle, folder: str) -> None:
-    """Open the folder of this name in the page, where it is closed; viser can only begin so."""
+    """Open a folder of the page by its name and bring it into view, where it is closed."""
     run(client, f"window.tofscopeUnfold({folder!r})")
 
 

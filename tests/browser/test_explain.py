@@ -46,6 +46,17 @@ def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
     tab.until(lambda: not tab.has_text("Moving: fitness"))
 
 
+def test_a_click_on_a_point_unfolds_the_story_and_another_leaves_it_open(tab: Tab):
+    moving, note = tab.arrows()[:, 0], tab.page.get_by_text("Moving: fitness")
+    x, y = pixel(tab, moving[len(moving) // 2])
+    assert not tab.page.get_by_text("Click on a point in the scene").is_visible()
+    tab.page.mouse.click(x, y)
+    tab.until(note.is_visible)
+    tab.page.mouse.click(x, y)
+    tab.page.wait_for_timeout(1000)
+    assert note.is_visible()
+
+
 def test_a_click_on_a_row_of_the_table_picks_its_cluster_and_another_lets_it_go(tab: Tab):
     tab.page.get_by_text("Explain", exact=True).click()
     row = tab.page.locator("tr[data-sets]", has_text="moving")

@@ -70,6 +70,20 @@ def test_a_number_out_of_range_is_refused_in_words_and_the_old_one_comes_back(ta
     assert tab.value("n") == 20
 
 
+def test_a_folded_number_out_of_range_is_refused_also_after_it_is_left(tab: Tab):
+    tab.page.get_by_text("More parameters", exact=True).click()
+    number = tab.row("min cluster size").locator("input:not([type=hidden])")
+    refusal = tab.page.get_by_text("must be")
+    number.fill("1")
+    tab.until(refusal.is_visible)
+    number.blur()
+    tab.page.wait_for_timeout(500)
+    assert "min_cluster_size must be between 2" in refusal.inner_text()
+    assert number.input_value() == "1"
+    tab.page.get_by_role("button", name="Reset these").click()
+    tab.until(lambda: number.input_value() == "20" and not refusal.is_visible())
+
+
 def test_a_number_that_is_left_empty_comes_back(tab: Tab):
     number = tab.row("N_min").locator("input:not([type=hidden])")
     number.focus()

@@ -50,7 +50,8 @@ def test_the_whole_recording_is_plotted_and_a_change_of_parameters_plots_it_agai
 def test_a_click_in_a_plot_goes_there_and_the_line_follows(tab: Tab):
     filled(tab)
     last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
-    for share in (0.75, 0.4, 0.75):
+    field = tab.row("Go to [s]").locator("input:not([type=hidden])")
+    for share in (0.75, 0.75, 0.4):
         plot = tab.page.locator(".u-over").nth(1)
         box = plot.bounding_box()
         assert box is not None
@@ -60,6 +61,22 @@ def test_a_click_in_a_plot_goes_there_and_the_line_follows(tab: Tab):
         tab.until(lambda frame=frame: abs(tab.page.evaluate(_CURSOR) - frame / last) < 0.02)
         tab.set_slider("Frame", "Home")
         tab.until(lambda: tab.page.evaluate(_CURSOR) < 0.01)
+        tab.until(lambda: float(field.input_value()) == 0)
+
+
+def test_a_time_can_be_typed_and_typed_again(tab: Tab):
+    field = tab.row("Go to [s]").locator("input:not([type=hidden])")
+    for _ in range(2):
+        tab.set_slider("Frame", "Home")
+        tab.until(lambda: tab.value("Frame") == 0 and float(field.input_value()) == 0)
+        field.click()
+        field.press("Control+a")
+        field.press_sequentially("1.25", delay=150)
+        tab.until(lambda: tab.has_text("at 1.27 s") or tab.has_text("at 1.20 s"))
+        assert field.input_value() == "1.25"
+        field.blur()
+        tab.page.wait_for_timeout(300)
+        assert field.input_value() == "1.25"
 
 
 def test_the_numbers_arrive_as_a_csv_file(tab: Tab):
