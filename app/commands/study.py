@@ -185,7 +185,7 @@ def run(options: argparse.Namespace) -> int:
     estimated = monotonic()
     study = Study(plan, finished, failures, _command(), estimated - begin)
     for table in write_report(study, options.out):
-        if table.name in _SHOWN:
+        if table.name in _SHOWN or (table.name == "recordings" and plan.recordings):
             print(as_plain(table))
     making = sum(outcome.seconds for outcome in finished)
     estimating = sum(result.seconds for outcome in finished for result in outcome.results)

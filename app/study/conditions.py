@@ -11,12 +11,26 @@ from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 def conditions(plan: Plan) -> str:
     """A sentence for a caption: simulated or recorded, noise, imperfections, seed, parameters."""
     if plan.recordings is not None:
-        return f"Recordings that were given. {parameters_text(plan)}."
+        return f"Recordings that were given. {opening_text(plan)} {parameters_text(plan)}."
     also = ", ".join(plan.imperfections) or "none"
     return (
         f"Simulated, not measured: noise model {plan.noise}, imperfections {also}, seed "
         f"{plan.seed}. {parameters_text(plan)}."
     )
+
+
+def opening_text(plan: Plan) -> str:
+    """Sentences on frames that were asked for, "" where none was."""
+    first = plan.recordings[0] if plan.recordings else None
+    said: list[str] = []
+    if first and first.fixed_frame:
+        said.append(f"Clouds and flow are in the frame {first.fixed_frame}.")
+    if first and first.truth_frame:
+        said.append(
+            f"The truth is the motion of the frame {first.truth_frame}: coverage, precision, EPE3D "
+            "and what stands beside them take every point to move with it."
+        )
+    return " ".join(said)
 
 
 def parameters_text(plan: Plan) -> str:

@@ -38,6 +38,9 @@ def findings(plan: Plan, rows: list[Row]) -> list[str]:
 
 def _missing(plan: Plan, rows: list[Row]) -> Iterator[str]:
     """Which of the paper's cells have no recordings."""
+    if not any(speeds_of(rows, scenario) for scenario in LABELS):
+        yield "None of the paper's experiments is among these recordings."
+        return
     for scenario, label in LABELS.items():
         there = speeds_of(rows, scenario)
         absent = [f"{speed:.2f}" for speed in SPEEDS if speed not in there]

@@ -8,7 +8,13 @@ from typing import Any
 
 from app.errors import InputError
 from app.study import page
-from app.study.conditions import conditions, parameters_text, simulate_command, simulator_texts
+from app.study.conditions import (
+    conditions,
+    opening_text,
+    parameters_text,
+    simulate_command,
+    simulator_texts,
+)
 from app.study.figure import sweep_figure
 from app.study.findings import findings
 from app.study.further_tables import (
@@ -66,14 +72,23 @@ class Study:
         """All tables, the paper's first."""
         plan, rows = self.plan, self.rows()
         tables = [
-            *paper_tables(plan, rows),
+            *(
+                table
+                for table in paper_tables(plan, rows)
+                if plan.recordings is None or _any(table)
+            ),
             scenarios_table(plan, rows),
             metrics_table(plan, rows),
             sweep_table(plan, rows),
             ablation_table(plan, self.ablation_rows()),
             recordings_table(plan, rows),
         ]
-        return [table for table in tables if table]
+        return [table for table in tables if table and table.rows]
+
+
+def _any(table: Table) -> bool:
+    """Whether there are recordings of any of the table's cells."""
+    return any(row["trials"] for row in table.rows)
 
 
 def write_report(study: Study, folder: Path) -> list[Table]:
@@ -157,7 +172,8 @@ def _first(study: Study) -> page.Section:
         )
         blocks.append(page.items(simulator_texts(plan)))
     else:
-        blocks.append(page.paragraph(f"{len(plan.sources())} recordings that were given."))
+        said = f"{len(plan.sources())} recordings that were given. {opening_text(plan)}"
+        blocks.append(page.paragraph(said.strip()))
     if study.failures:
         blocks.append(page.paragraph("Not evaluated:"))
         blocks.append(page.items(list(study.failures)))

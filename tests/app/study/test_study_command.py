@@ -158,6 +158,10 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
     ]
     assert float(rows[2]["angle_deg"]) < 90
     assert not (out / "sweep.png").exists()
+    # Nothing of the paper's is among them: no empty tables.
+    assert sorted(path.stem for path in (out / "tables").glob("*.csv")) == ["recordings"]
+    assert "None of the paper&#x27;s experiments is among these recordings." in text
+    assert room.path.stem in said.out.split("Every recording")[1]
 
 
 def test_where_nothing_could_be_evaluated_the_exit_code_is_1(
