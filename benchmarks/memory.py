@@ -32,13 +32,14 @@ def _say(name: str, served: Served) -> None:
     print(f"  {name:28} {served.resident():7.1f} MB, {served.threads()} threads", flush=True)
 
 
-def scrub(served: Served, frames: int) -> None:
+def scrub(served: Served, frames: int, max_range: float) -> None:
     """Show frame after frame of a recording, as fast as the server draws them."""
     count = _Count()
     with WireClient(served.address, count.listen) as client:
         wait_until(lambda: count.frames, 120)
         wait_until(lambda: client.has("Frame"))
         _say("one client", served)
+        client.change("max range", max_range)
         for k in range(frames):
             shown = count.frames
             client.change("Frame", k % _FRAMES)
@@ -75,17 +76,21 @@ def main() -> None:
     parser.add_argument("--frames", type=int, default=_FRAMES, help="that are scrubbed")
     parser.add_argument("--clients", type=int, default=100, help="that come and go")
     parser.add_argument("--long", type=Path, help="long recording; made where it is not there")
+    parser.add_argument(
+        "--max-range", type=float, default=4.0, help="m; near points alone are estimated sooner"
+    )
     options = parser.parse_args()
-    print(f"Clients come and go: samples ({machine()})", flush=True)
-    with serving() as served:
-        come_and_go(served, options.clients)
+    if options.clients:
+        print(f"Clients come and go: samples ({machine()})", flush=True)
+        with serving() as served:
+            come_and_go(served, options.clients)
     with tempfile.TemporaryDirectory() as folder:
         path = options.long or Path(folder) / "long.mcap"
         if not path.exists():
             write_long_recording(path, _FRAMES)
         print(f"A recording of {_FRAMES} frames is scrubbed ({machine()})", flush=True)
         with serving(path) as served:
-            scrub(served, options.frames)
+            scrub(served, options.frames, options.max_range)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ from app.parameter_flags import add_parameter_flags, parameters_from
 from app.recording_flags import add_recording_flags, opening_from
 from recordings import sample_paths
 
+_LOOK_UP = 0.5  # seconds
+
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
     """Add the subcommand."""
@@ -69,7 +71,10 @@ def run(options: argparse.Namespace) -> int:
             )
         print(f"Tofscope is at {server.address}", flush=True)
         warm_up()
-        ended.wait()
+        # A signal may reach a thread of some library: the main thread, which alone runs its
+        # handler, is not woken by it and has to look up by itself.
+        while not ended.wait(_LOOK_UP):
+            pass
     finally:
         server.close()
     return 0

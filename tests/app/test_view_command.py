@@ -3,6 +3,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 import urllib.request
 from pathlib import Path
 
@@ -94,6 +95,39 @@ def test_it_says_where_it_is_and_ends_quietly(tmp_path, number):
     out, err = app.communicate(timeout=20)
     assert app.returncode == 0
     assert (out, err) == ("", "")
+
+
+_ENDED_BY_A_THREAD = """
+import signal, sys, threading
+import app.estimates
+from app.command_line import main
+
+def end():
+    sys.stdin.readline()
+    signal.pthread_kill(threading.get_ident(), signal.SIGTERM)
+
+app.estimates.warm_up = lambda: None
+threading.Thread(target=end, daemon=True).start()
+sys.exit(main(["view", sys.argv[1], "--port", "0"]))
+"""
+
+
+def test_a_signal_that_reaches_another_thread_ends_it_too(tmp_path):
+    app = subprocess.Popen(
+        [sys.executable, "-c", _ENDED_BY_A_THREAD, str(tmp_path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert app.stdin is not None
+    assert app.stdout is not None
+    assert app.stdout.readline().startswith("Tofscope is at")
+    time.sleep(2.0)  # by now it does nothing but wait
+    try:
+        app.communicate("now\n", timeout=30)
+    finally:
+        app.kill()
+    assert app.returncode == 0
 
 
 def test_serving_to_everybody_is_warned_of(tmp_path):
