@@ -47,8 +47,9 @@ def test_a_preset_survives_a_reload_and_a_file_goes_out_and_in(tab: Tab, tmp_pat
 def test_more_than_a_slider_offers_can_be_typed(tab: Tab):
     number = tab.row("n").locator("input:not([type=hidden])")
     number.fill("25")
-    number.blur()
     tab.until(lambda: tab.has_text("is before the start"))
+    tab.until(lambda: tab.row("n").locator("[role=slider]").get_attribute("aria-valuemax") == "25")
+    number.blur()
     tab.page.wait_for_timeout(300)
     assert tab.value("n") == 25
     assert number.input_value() == "25"
