@@ -47,7 +47,7 @@ IMPERFECTIONS = {
         ),
         Imperfection(
             "ramps",
-            "what moves takes 0.25 s to reach its speed and 0.25 s to stop, where else it jumps",
+            "what moves takes 0.25 s to reach its speed and 0.25 s to stop, instead of jumping",
         ),
         Imperfection("dropped_frames", "frames are lost, 5 % of them"),
         Imperfection("stamp_jitter", "frames are taken early or late, one sigma 4 ms"),
