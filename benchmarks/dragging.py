@@ -16,6 +16,7 @@ _VALUES = (4, 5, 6, 7, 8, 9, 10, 11, 12)
 _PAUSE = 0.3  # seconds between two events of a person who looks at each picture
 _EVERY = 0.05  # seconds between two events of a browser whose slider is dragged
 _DRAGGED = 5.0  # seconds
+_FIRST, _APART = 13, 3  # frames
 _RATE = 15.0  # frames per second of the samples
 _FLOOD = 200  # events in a second
 _INTERVAL = re.compile(r">Interval</span><span[^>]*>([0-9.]+) s<")
@@ -108,15 +109,18 @@ def flood(served: Served) -> str:
 
 
 def together(served: Served, count: int) -> list[str]:
-    """What each of several clients sees while all of them drag, at frames of their own."""
-    hands = [_Hand(served, 15 + 3 * number) for number in range(count)]
+    """What each of several clients sees while all drag n and move on, at frames of their own."""
+    hands = [_Hand(served, _FIRST + _APART * number) for number in range(count)]
     for hand in hands:
         hand.start()
     start = time.perf_counter()
     step = 0
     while time.perf_counter() < start + _DRAGGED:
-        for hand in hands:
-            hand.move(_VALUES[step % len(_VALUES)])
+        onward, at = divmod(step, len(_VALUES))
+        for number, hand in enumerate(hands):
+            if at == 0:  # nothing of the next frame is known to anybody
+                hand.client.change("Frame", _FIRST + _APART * number + onward)
+            hand.move(_VALUES[at])
         step += 1
         time.sleep(max(0.0, start + step * _EVERY - time.perf_counter()))
     end = time.perf_counter()
