@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+import numpy as np
+
 from tests.browser.tab import Tab
 
 
@@ -92,3 +94,29 @@ def test_a_number_that_is_left_empty_comes_back(tab: Tab):
     number.blur()
     tab.until(lambda: number.input_value() == "60")
     assert tab.value("N_min") == 60
+
+
+_FLOOD = """([slider, keys]) => new Promise(done => {
+  const start = performance.now();
+  const press = index => {
+    if (index === keys.length) return done();
+    slider.dispatchEvent(new KeyboardEvent("keydown", {key: keys[index], bubbles: true}));
+    setTimeout(press, start + 1000 * (index + 1) / keys.length - performance.now(), index + 1);
+  };
+  press(0);
+})"""
+
+
+def test_200_slider_events_in_a_second_end_on_the_last(tab: Tab):
+    keys = ["ArrowLeft", "ArrowRight"] * 98 + ["Home", "ArrowRight", "ArrowRight", "ArrowRight"]
+    slider = tab.row("n").locator("[role=slider]")
+    tab.page.evaluate(_FLOOD, [slider.element_handle(), keys])
+    tab.until(lambda: tab.has_text("0.267 s"))
+    tab.page.wait_for_timeout(700)  # nothing that was late comes after it
+    assert tab.value("n") == 4
+    assert tab.has_text("0.267 s")
+    drawn = tab.arrows()
+    tab.set_slider("n", "ArrowRight")
+    tab.until(lambda: tab.has_text("0.333 s"))
+    tab.set_slider("n", "ArrowLeft")
+    tab.until(lambda: tab.has_text("0.267 s") and np.array_equal(tab.arrows(), drawn))
