@@ -8,6 +8,7 @@ from typing import Any
 
 from app.errors import InputError
 from app.study import page
+from app.study.ablation_findings import ablation_findings
 from app.study.conditions import (
     conditions,
     opening_text,
@@ -149,6 +150,8 @@ def _page(study: Study, tables: Sequence[Table], figure: dict[str, bytes] | None
             shown = page.folded(f"{len(table.rows)} lines", shown)
         endings = ("csv", "md", "tex") if len(table.rows) <= LONGEST else ("csv", "md")
         blocks = [shown, page.links([f"{_TABLES}/{table.name}.{e}" for e in endings])]
+        if table.name == "ablation":
+            blocks.insert(0, page.items(ablation_findings(plan, table)))
         if table.name == "sweep" and figure:
             picture = page.picture(figure["png"], "Error over n, a line for each speed")
             blocks = [picture, page.links(["sweep.png", "sweep.pdf"]), *blocks]
