@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import viser
 
+from app.controls import show_value
 from app.estimates import Pair
 from app.page_fields import sets, unfold
 from app.palettes import Palette
@@ -140,7 +141,7 @@ class ExplainPanel(Panel):
         options = tuple(indices)
         if options != self._list.options:
             self._list.options = options
-        self._list.value = next(name for name, index in indices.items() if index == picked)
+        show_value(self._list, next(name for name, index in indices.items() if index == picked))
 
 
 def _name(cluster: ClusterResult) -> str:

@@ -5,6 +5,7 @@ from typing import Any
 import viser
 from viser import Icon
 
+from app.controls import show_value
 from app.library import Opened
 from app.page_fields import sets_along
 from app.panel import Desk, Panel, Shown
@@ -109,7 +110,7 @@ class PlaybackPanel(Panel):
         """Show where playback is."""
         stamps = shown.opened.recording.stamps
         if not shown.seeking:
-            self._slider.value = shown.frame
+            show_value(self._slider, shown.frame)
         time, end = stamps[shown.frame] - stamps[0], stamps[-1] - stamps[0]
         self._time.content = (
             '<div style="font-size: 0.75rem; padding: 0 1em 0.4em; opacity: 0.75;'
@@ -131,8 +132,8 @@ class PlaybackPanel(Panel):
         # not changed is not set: a person may be setting it at this very moment.
         if playback != self._followed:
             self._followed = playback
-            self._speed.value = speed_name(playback.speed)
-            self._loop.value = playback.loop
+            show_value(self._speed, speed_name(playback.speed))
+            show_value(self._loop, playback.loop)
         if not self._arrived:
             self._arrived = True
             self._range.value = (playback.first, max(playback.last, 1))

@@ -6,6 +6,7 @@ from html import escape
 
 import viser
 
+from app.controls import show_value
 from app.library import Opened
 from app.panel import Desk, Panel, Shown
 from app.wishes import OpenRecording
@@ -50,7 +51,7 @@ class RecordingsPanel(Panel):
 
     def show(self, shown: Shown) -> None:
         """Choose what is open, also after a recording that could not be opened."""
-        self._list.value = shown.opened.entry.label
+        show_value(self._list, shown.opened.entry.label)
 
 
 def describe(opened: Opened) -> list[str]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import viser
 
+from app.controls import show_value
 from app.library import Opened
 from app.panel import Desk, Shown
 from app.wishes import LatestWins
@@ -84,4 +85,4 @@ class TimeField:
             return
         self._stays_at = None
         stamps = shown.opened.recording.stamps
-        self._control.value = round(float(stamps[shown.frame] - stamps[0]), 3)
+        show_value(self._control, round(float(stamps[shown.frame] - stamps[0]), 3))

@@ -1,0 +1,30 @@
+"""Values that a session shows in controls which a person may be using at the same moment."""
+
+import threading
+from typing import Any
+
+import viser
+
+_PATIENCE = 2.0  # seconds
+
+
+def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
+    """Let a control show a value.
+
+    viser puts what a person chose into the control and then calls back, in the thread of its event
+    loop. A value that came in between from another thread would be read instead of the person's.
+
+    Args:
+        control: of a session's page.
+        value: of the control's type.
+    """
+    if control.value == value:
+        return
+    done = threading.Event()
+
+    def assign() -> None:
+        control.value = value
+        done.set()
+
+    control._impl.gui_api._event_loop.call_soon_threadsafe(assign)
+    done.wait(_PATIENCE)
