@@ -39,7 +39,7 @@ def _of_method(plan: Plan, table: Table, method: str) -> list[str]:
             f"{label}: exact readings leave {_errors(exact)}, "
             f"{100 * _number(exact) / _number(usual):.0f} % of the angle deviation. That share "
             "comes from the few rays, which sample a surface anew wherever it goes, and from the "
-            "method, and no better sensor of this kind takes it away."
+            "method, and a sensor with less noise does not take it away."
         )
     return said
 

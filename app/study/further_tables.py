@@ -36,7 +36,7 @@ def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
             line: dict[str, Value] = {
                 "experiment": experiment_label(scenario, method),
                 "speed": speed,
-                "trials": f"{len(values(here, 'velocity_error'))}/{len(here)}",
+                "trials": len(here),
             }
             for key in (*_PAPERS, *_FOUND):
                 line[key] = mean(here, key)
@@ -48,8 +48,8 @@ def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
         "scenarios",
         "Scenarios beyond the paper's",
         "Means and sample deviations over trials. Angle deviation and velocity error compare every "
-        "flow with the velocity of the target alone, such as the hand of what turns, or the one in "
-        "front of two that cross; coverage, precision and false flow know what "
+        "flow with the motion of the target alone, its turning included, such as that of the one "
+        "in front of two that cross; coverage, precision and false flow know what "
         "every point does. Where nothing moves every flow is false, and only false flow (points "
         "at rest that got a flow, of all at rest, over all pairs) is defined."
         f"{f' {texts}.' if texts else ''}",
@@ -58,7 +58,7 @@ def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
             Column("speed", "Speed (m/s)", ".2f"),
             *_with_std(_PAPERS),
             *(_METRICS[key] for key in _FOUND),
-            Column("trials", "Trials with a flow"),
+            Column("trials", "Trials", "d"),
         ),
         tuple(lines),
     )

@@ -213,7 +213,8 @@ def _last(study: Study) -> page.Section:
     if plan.recordings is None:
         blocks.append(page.paragraph("The recordings, as files, are made by"))
         blocks.append(page.command(simulate_command(plan)))
-        again = "tofscope study --recordings recordings --out FOLDER"
+        methods = " ".join(plan.methods)
+        again = f"tofscope study --recordings recordings --method {methods} --out FOLDER"
         blocks.append(page.paragraph("and evaluated, with the parameters above, by"))
         blocks.append(page.command(again))
     blocks.append(page.links([f"{_TABLES}/tables.json"]))

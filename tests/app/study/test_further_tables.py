@@ -7,6 +7,7 @@ from app.study.further_tables import (
     ablation_table,
     metrics_table,
     recordings_table,
+    scenarios_table,
     sweep_table,
 )
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
@@ -45,6 +46,24 @@ def test_metrics_are_all_that_evaluate_knows_and_sums_where_they_count():
     assert (line["pairs"], line["points_with_flow"]) == (14, 200)
     assert line["epe3d"] == pytest.approx(0.01)
     assert line["dynamic_iou"] is None
+
+
+def test_scenarios_beyond_the_papers_have_a_table_of_their_own():
+    still = {"false_flow": 0.25, "pairs": 0, "coverage": None}
+    rows = [
+        made(metrics=good(6.0, 0.03)),
+        made("crossing", 0.5, 1, metrics=good(10.0, 0.1)),
+        made("crossing", 0.5, 2, metrics=good(20.0, 0.3)),
+        made("still", 0.0, 1, metrics=still),
+    ]
+    table = scenarios_table(replace(PLAN, methods=("paper",)), rows)
+    assert table is not None
+    crossing, rests = table.rows
+    assert (crossing["angle_deg"], crossing["trials"]) == (15.0, 2)
+    assert crossing["velocity_error"] == pytest.approx(0.2)
+    assert (rests["experiment"], rests["speed"]) == ("still (Algorithm 1)", 0.0)
+    assert (rests["false_flow"], rests["angle_deg"], rests["coverage"]) == (0.25, None, None)
+    assert scenarios_table(PLAN, rows[:1]) is None
 
 
 def test_ablation_has_a_line_per_noise_model_imperfection_and_method():
