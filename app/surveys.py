@@ -15,7 +15,7 @@ from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
 _QUIET = 0.6  # seconds without anybody waiting for an estimate; who tunes is hardly held up
-_PATIENCE = 1.0  # seconds after which each survey goes on by one frame all the same
+_PATIENCE = 2.0  # seconds after which each survey goes on by one frame all the same
 _TELL = 0.3  # seconds between two times that a listener is told of something new
 
 
@@ -110,6 +110,9 @@ class Surveys:
         survey = request.survey = request.survey or self._surveys.get(
             (opened.key, parameters), lambda: Survey(opened.recording, parameters)
         )
+        for known in self._estimates.remembered(opened, parameters):
+            if not survey.done[known.frame]:  # who plays or scrubs has computed it already
+                survey.put(known.frame, known)
         k = survey.missing()
         if k is not None:
             pair = self._pair(request, k)

@@ -135,6 +135,22 @@ def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others
             surveys.leave(who)
 
 
+def test_what_is_played_fills_the_survey_without_being_computed_again(monkeypatch, runs):
+    monkeypatch.setattr("app.surveys._PATIENCE", 0.2)
+    estimates, opened, listener = Estimates(), fake_opened(), Listener()
+    played = range(20, 32)
+    for k in played:
+        estimates.estimated(opened, k, Parameters())
+    surveys = Surveys(estimates)
+    with estimates.foreground:  # never quiet
+        surveys.ask("me", opened, Parameters(), listener)
+        until(lambda: listener.told)
+        assert listener.told[0][1].done[list(played)].all()
+        assert len(runs) <= len(played) + 2
+        assert not listener.complete
+        surveys.leave("me")
+
+
 def test_a_broken_frame_is_a_gap():
     fake = fake_recording()
     whole = fake.cloud
