@@ -37,7 +37,7 @@ def scrub(served: Served, frames: int, max_range: float) -> None:
     count = _Count()
     with WireClient(served.address, count.listen) as client:
         wait_until(lambda: count.frames, 120)
-        wait_until(lambda: client.has("Frame"))
+        wait_until(lambda: client.has("Frame") and client.value("Frame"))  # it is shown by now
         _say("one client", served)
         client.change("max range", max_range)
         for k in range(frames):
