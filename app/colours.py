@@ -10,6 +10,8 @@ SENSOR: Colour = (205, 20, 30)
 FRUSTUM: Colour = (190, 110, 110)
 PICKED: Colour = (214, 0, 147)
 BRAND: Colour = (31, 99, 200)
+BRIGHT_BRAND: Colour = (90, 150, 245)
+"""For a dark page."""
 
 
 def css(colour: Colour) -> str:

@@ -2,7 +2,8 @@
 
 HTML of viser cannot be clicked, and its plots neither. An element that carries the attributes of
 `sets` or `sets_along` hands a click on to a number field, a slider or a dropdown of the page, as
-if a person had entered it there. And a number that is left empty comes back.
+if a person had entered it there. A number that is left empty comes back, and a field gives up the
+focus once a person is done with it.
 """
 
 import viser
@@ -53,6 +54,14 @@ if (!window.tofscopeSet) {
     const {sets, value, end} = element.dataset;
     const along = () => Math.round(window.tofscopeAlong(event, element, 0, Number(end))).toString();
     window.tofscopeSet(sets, value ?? along());
+  });
+  // A field that keeps the focus keeps the keys, which people mean for playback.
+  const leave = () => setTimeout(() => document.activeElement?.blur(), 0);
+  document.addEventListener('click', event => {
+    if (event.target.closest('[role=option]')) leave();
+  });
+  document.addEventListener('keydown', event => {
+    if (event.key === 'Enter' && event.target.matches('input')) leave();
   });
   const number = target => target.matches('input.mantine-NumberInput-input');
   document.addEventListener('focusin', ({target}) => {

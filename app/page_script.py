@@ -1,5 +1,7 @@
 """What the page has to do by itself in the browser, where viser offers no way to ask it."""
 
+from uuid import uuid4
+
 import viser
 from viser._messages import RunJavascriptMessage
 
@@ -33,10 +35,9 @@ if (!window.tofscopeEdge) {
 }
 """
 
-_SIZE = "canvas-size"
-_SIZE_TO_STORAGE = f"""
+_SIZE_TO_STORAGE = """
 const canvas = document.querySelector("canvas[data-engine]");
-localStorage.setItem("viser-user:{_SIZE}", `${{canvas.clientWidth}} ${{canvas.clientHeight}}`);
+localStorage.setItem("viser-user:%s", `${canvas.clientWidth} ${canvas.clientHeight}`);
 """
 
 # A server never learns the address of viser's page; what its storage holds it may ask for. The
@@ -124,9 +125,11 @@ def canvas_size(client: viser.ClientHandle) -> tuple[int, int]:
 
     What it tells are a screen's pixels: more on a fine screen, fewer on a slow machine.
     """
-    run(client, _SIZE_TO_STORAGE)
+    key = f"canvas-{uuid4()}"  # tabs share their storage
+    run(client, _SIZE_TO_STORAGE % key)
     try:
-        told = client.local_storage.get_item(_SIZE, timeout=5.0)
+        told = client.local_storage.get_item(key, timeout=5.0)
+        client.local_storage.remove_item(key)
         width, height = (int(side) for side in (told or "").split())
     except (RuntimeError, TimeoutError, ValueError):
         width, height = client.camera.image_width, client.camera.image_height

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.colours import FLOW, FRUSTUM, SOURCE, TARGET, TRUTH, Colour
+from app.colours import FLOW, FRUSTUM, PICKED, SOURCE, TARGET, TRUTH, Colour
 from app.comparison_sides import A
 
 PAPER, COLOUR_BLIND = "As in the paper", "Colour-blind safe"
@@ -24,6 +24,7 @@ class Palette:
         target: of the target.
         flow: of arrows, and of the frustum of a sensor that sees something moving.
         second: of the arrows of B where A and B are drawn together; those of A are as `flow`.
+        picked: of the picked cluster.
         truth: of the truth's arrow.
         ghost: of the place where the truth says that a source point is now.
         frustum: of the sensors that see nothing moving.
@@ -39,6 +40,7 @@ class Palette:
     target: Colour
     flow: Colour
     second: Colour
+    picked: Colour
     truth: Colour
     ghost: Colour
     frustum: Colour
@@ -92,6 +94,7 @@ _ALL = {
         target=TARGET,
         flow=FLOW,
         second=(130, 50, 200),
+        picked=PICKED,
         truth=TRUTH,
         ghost=(248, 178, 92),
         frustum=FRUSTUM,
@@ -106,7 +109,8 @@ _ALL = {
         unassigned=(98, 102, 110),
         target=(84, 150, 255),
         flow=(60, 205, 100),
-        second=(130, 50, 215),
+        second=(185, 120, 255),
+        picked=(255, 80, 190),
         truth=(255, 160, 40),
         ghost=(170, 110, 40),
         frustum=(150, 90, 90),
@@ -122,6 +126,7 @@ _ALL = {
         target=(0, 114, 178),
         flow=(0, 138, 100),
         second=(95, 60, 20),
+        picked=PICKED,
         truth=(170, 70, 130),
         ghost=(222, 170, 202),
         frustum=(160, 140, 130),
@@ -137,6 +142,7 @@ _ALL = {
         target=(86, 180, 233),
         flow=(40, 205, 155),
         second=(240, 228, 66),
+        picked=(255, 80, 190),
         truth=(225, 140, 190),
         ghost=(140, 84, 120),
         frustum=(130, 112, 100),

@@ -2,12 +2,17 @@
 
 import viser
 
-from app.colours import BRAND, Colour
+from app.colours import BRAND, BRIGHT_BRAND, Colour
 
 
 def dress(gui: viser.GuiApi, dark: bool) -> None:
     """Dress the page in light or dark."""
-    gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND)
+    gui.configure_theme(
+        dark_mode=dark,
+        show_logo=False,
+        show_share_button=False,
+        brand_color=BRIGHT_BRAND if dark else BRAND,
+    )
 
 
 def background(dark: bool) -> Colour:

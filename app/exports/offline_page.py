@@ -1,25 +1,32 @@
 """An animated scene as one HTML file, which a browser opens from disk, without network."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 
 import numpy as np
 
 from app.captions import caption
-from app.colours import Colour, css
+from app.comparison import Comparison
 from app.errors import InputError
 from app.estimates import Estimates
 from app.guarded_server import GuardedServer
 from app.library import Opened
 from app.places import Camera
+from app.scene.legend import Legend, Mark
+from app.scene.legend_html import html
 from app.scene.scene import Scene
-from app.scene.settings import ONE_COLOUR, ViewSettings
+from app.scene.settings import ViewSettings
 from app.theme import dress
 from estimator import Parameters
 from recordings import Recording
 
 MOST_FRAMES = 3000
 """A page with more frames would be too large for a browser."""
+
+# The player's bar is at the bottom.
+_LEGEND_STYLE = """<style>
+[data-legend] { bottom: 54px !important; font-family: system-ui, sans-serif }
+</style>"""
 
 # Where it begins again or is set back, viser's player lights the scene in its own way until the
 # browser's next image. Messages that are taken at once leave no such image between.
@@ -49,6 +56,7 @@ def offline_page(
     stand: str | Camera,
     estimates: Estimates,
     progress: Callable[[int], None],
+    comparison: Comparison | None = None,
 ) -> str:
     """The frames of a recording as a page that plays them at the speed of their stamps.
 
@@ -60,6 +68,7 @@ def offline_page(
         stand: where the camera stands at first, or one of `VIEWS`.
         estimates: computes and remembers.
         progress: is told how many frames are drawn.
+        comparison: with other parameters, whose flow is drawn too where it says so.
 
     Raises:
         InputError: more frames than a page may have.
@@ -85,18 +94,29 @@ def offline_page(
             scene.stand(stand)
         else:
             scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), stand)
+        marks: dict[str, Mark] = {}
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)
-            scene.show(estimates.estimated_ahead(opened, k, parameters))
+            pair = estimates.estimated_ahead(opened, k, parameters)
+            if comparison is not None and comparison.both:
+                other = estimates.estimated_ahead(opened, k, comparison.other)
+                scene.show(pair, other, comparison.edited)
+            else:
+                scene.show(pair)
+            marks |= {mark.text: mark for mark in scene.legend.marks}
             recorder.insert_sleep(pause)
+        legend = Legend(tuple(marks.values()), scene.legend.ramp, settings.dark)
         page = recorder.as_html(dark_mode=settings.dark)
     finally:
         server.stop()
     title = f"{recording.name} (simulated)" if recording.simulated else recording.name
     page = page.replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")
-    added = _legend(recording, frames, parameters, settings, title) + _NO_FLASH
+    sides = comparison.drawn(parameters) if comparison else {}
+    said = dict(caption(recording, parameters, None, sides))
+    said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
+    added = _LEGEND_STYLE + html(legend) + _about(title, said, dark=settings.dark) + _NO_FLASH
     return page[:end] + added + page[end:]
 
 
@@ -107,28 +127,9 @@ def _pauses(recording: Recording, frames: Sequence[int]) -> list[float]:
     return [*map(float, pauses), usual]
 
 
-def _legend(
-    recording: Recording,
-    frames: Sequence[int],
-    parameters: Parameters,
-    settings: ViewSettings,
-    title: str,
-) -> str:
-    """A box above the scene: what the colours mean, and what the page shows."""
-    palette = settings.palette
-    colours = {
-        "source": palette.source,
-        "stationary": palette.stationary,
-        "unassigned": palette.unassigned,
-        "target": palette.target,
-    }
-    if settings.arrow_colours == ONE_COLOUR:
-        colours["flow"] = palette.flow
-    if recording.has_truth:
-        colours["truth"] = palette.truth
-    ink, paper = ("#ddd", "rgba(30, 30, 34, 0.88)") if settings.dark else ("#222", "#ffffffe0")
-    said = dict(caption(recording, parameters, None))
-    said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
+def _about(title: str, said: Mapping[str, str], *, dark: bool) -> str:
+    """A box above the scene: what the page shows, {what: value}."""
+    ink, paper = ("#ddd", "rgba(30, 30, 34, 0.88)") if dark else ("#222", "#ffffffe0")
     rows = "".join(_row(name, value) for name, value in said.items())
     box = (
         "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 30rem; "
@@ -136,10 +137,9 @@ def _legend(
         f"background: {paper}; color: {ink}; "
         "font: 0.8rem/1.5 system-ui, sans-serif; box-shadow: 0 0 0.8rem #0002"
     )
-    dots = " ".join(_dot(name, colour) for name, colour in colours.items())
     return (
         f'<details id="about" style="{box}"><summary style="cursor: pointer">'
-        f"<strong>{escape(title)}</strong><br>{dots}</summary>"
+        f"<strong>{escape(title)}</strong></summary>"
         f'<table style="border-spacing: 0; margin-top: 0.4rem">{rows}</table>'
         '<div style="margin-top: 0.4rem">Made with Tofscope. Drag to turn, right button to move, '
         "wheel to zoom, space to pause.</div></details>"
@@ -152,12 +152,4 @@ def _row(name: str, value: str) -> str:
     return (
         '<tr style="vertical-align: top"><td style="padding-right: 1em; white-space: nowrap">'
         f'{escape(name)}</td><td style="overflow-wrap: anywhere">{escape(value)}</td></tr>'
-    )
-
-
-def _dot(name: str, colour: Colour) -> str:
-    return (
-        '<span style="white-space: nowrap; margin-right: 0.7em"><span style="display: inline-block;'
-        f" width: 0.65em; height: 0.65em; border-radius: 50%; background: {css(colour)}; "
-        f'margin-right: 0.35em"></span>{name}</span>'
     )

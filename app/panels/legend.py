@@ -1,12 +1,10 @@
 """The legend that lies over the scene."""
 
 import json
-from html import escape
 
-from app.colours import Colour, css
 from app.page_script import run
 from app.panel import Desk, Panel, Shown
-from app.scene.legend import Legend, Ramp
+from app.scene.legend_html import html
 
 # It is no part of viser's panels, so that it stays where these are folded away.
 _SCRIPT = """
@@ -32,39 +30,3 @@ class LegendPanel(Panel):
         if content != self._said:
             self._said = content
             run(self._client, _SCRIPT % json.dumps(content))
-
-
-def html(legend: Legend) -> str:
-    """A legend as a box in the lower left corner of the scene."""
-    if not legend.marks and legend.ramp is None:
-        return ""
-    ground, ink = ("#1c1d20cc", "#e6e7ea") if legend.dark else ("#ffffffd9", "#26282c")
-    rows = "".join(_row(_dot(mark.colour), mark.text) for mark in legend.marks)
-    if legend.ramp:
-        rows += _ramp(legend.ramp)
-    return (
-        '<div style="position: fixed; left: calc(var(--scene-left, 0px) + 14px); bottom: 14px; '
-        "z-index: 1; pointer-events: none; "
-        f"background: {ground}; color: {ink}; padding: 6px 10px; border-radius: 6px; "
-        f'font-size: 12px; line-height: 18px" data-legend>{rows}</div>'
-    )
-
-
-def _row(sign: str, text: str) -> str:
-    return f'<div style="display: flex; align-items: center">{sign}{escape(text)}</div>'
-
-
-def _dot(colour: Colour) -> str:
-    return (
-        '<span style="width: 9px; height: 9px; border-radius: 50%; margin-right: 8px; flex: none; '
-        f'background: {css(colour)}"></span>'
-    )
-
-
-def _ramp(ramp: Ramp) -> str:
-    colours = ", ".join(css(colour) for colour in ramp.colours)
-    return (
-        '<div style="display: flex; align-items: center; gap: 6px">'
-        f'{escape(ramp.low)}<span style="width: 90px; height: 9px; border-radius: 4px; '
-        f'background: linear-gradient(to right, {colours})"></span>{escape(ramp.high)}</div>'
-    )

@@ -118,6 +118,7 @@ class OfflinePagePanel(Panel):
                 place.camera or THREE_D,
                 estimates,
                 progress,
+                place.comparison,
             )
         except ExportEndedError:
             return

@@ -1,5 +1,6 @@
 """The estimator's parameters: sliders for the paper's four, the method, the others folded."""
 
+import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
 from html import escape
@@ -15,6 +16,7 @@ from estimator import PARAMETER_INFO, Parameters, method_names
 if TYPE_CHECKING:
     from app.workbench import Workbench
 
+_READING = 4.0  # seconds for which a refusal is seen after the old value has come back
 _UNSET = 0
 """What stands in a number field for a parameter that is unset."""
 
@@ -44,6 +46,7 @@ class ParametersPanel(Panel):
         gui, parameters, post = desk.client.gui, desk.parameters, desk.post
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()
+        self._read_at = 0.0
         self._sliders = [name for name, info in PARAMETER_INFO.items() if info.slider]
         self._folder = gui.add_folder("Parameters")
         with self._folder:
@@ -92,6 +95,8 @@ class ParametersPanel(Panel):
         """Say whose parameters these are, where two sets are compared."""
         compared = shown.comparison
         self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
+        if not self._refused and time.monotonic() > self._read_at:
+            self._refusal.visible = False
 
     def replace(self, parameters: Parameters) -> None:
         """Show these parameters, and that nothing is refused."""
@@ -113,6 +118,8 @@ class ParametersPanel(Panel):
         for name in clamped:
             self._show(name, parameters)
         self._refused -= clamped
+        if clamped:
+            self._read_at = time.monotonic() + _READING
         return {name: value for name, value in values.items() if name not in clamped}
 
     def accept(self, parameters: Parameters) -> None:

@@ -66,7 +66,8 @@ class TakeScreenshot(LatestWins):
                 "or choose a smaller size."
             ) from error
         finally:
-            workbench.change_view({"dark": dark})
+            if self.background == _WHITE:
+                workbench.change_view({"dark": dark})
         background = {
             _WHITE: (255, 255, 255),
             _TRANSPARENT: None,

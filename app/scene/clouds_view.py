@@ -1,6 +1,6 @@
 """The two clouds and the arrows of the flow."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
 import numpy as np
@@ -121,10 +121,17 @@ class CloudsView:
 
     @contextmanager
     def cleared(
-        self, eye: NDArray[np.float64], forward: NDArray[np.float64], near: float
+        self,
+        eye: NDArray[np.float64],
+        forward: NDArray[np.float64],
+        near: float,
+        others: Iterable[viser.PointCloudHandle],
     ) -> Iterator[None]:
-        """Without the points nearer than `near` metres to an eye (3,) that looks forward (3,)."""
-        kept = [(cloud, cloud.points, cloud.colors) for cloud in self._all]
+        """Without the points nearer than `near` metres to an eye (3,) that looks forward (3,).
+
+        The same is done to `others` than the clouds that are drawn here.
+        """
+        kept = [(cloud, cloud.points, cloud.colors) for cloud in (*self._all, *others)]
         for cloud, points, colours in kept:
             drawn = (points - eye) @ forward > near
             cloud.points = points[drawn]

@@ -70,6 +70,7 @@ class Scene:
         self._shown: Pair | None = None
         self._second: Pair | None = None
         self._side = A
+        self._marked: ClusterResult | None = None
         self._turn = np.eye(3)
         self._speed_limit = 0.0
         self._stage = Stage(canvas.scene, settings.palette)
@@ -122,8 +123,8 @@ class Scene:
     @property
     def legend(self) -> Legend:
         """What the colours mean."""
-        both = self._second is not None
-        return legend(self._shown, self._settings, self._speed_limit, both=both)
+        side = None if self._second is None else self._side
+        return legend(self._shown, self._settings, self._speed_limit, side, self._marked)
 
     @contextmanager
     def posed(self, view: View, fov: float, larger: float, height: int) -> Iterator[None]:
@@ -141,7 +142,8 @@ class Scene:
         try:
             eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
             # A picture that is asked for has no near plane of its own.
-            with self._clouds.cleared(eye, forward / np.linalg.norm(forward), lens.near):
+            picked = [self._selection.points] if self._selection else []
+            with self._clouds.cleared(eye, forward / np.linalg.norm(forward), lens.near, picked):
                 yield
         finally:
             self._thicken(1.0)
@@ -179,6 +181,7 @@ class Scene:
             side: which of A and B the first one is, where both are drawn.
         """
         before, self._shown, self._second, self._side = self._shown, pair, second, side
+        self._marked = None
         if before is None or before.target is not pair.target:
             self._clouds.show_target(pair.target.points)
             if self._robot:
@@ -191,11 +194,14 @@ class Scene:
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
         """Mark a cluster of a pair as picked, or none."""
-        if self._selection is None:
-            if cluster is None:
-                return
-            self._selection = SelectionView(self._canvas.scene, self._clouds.radius)
-        self._selection.show(pair, cluster, self._turn[2])
+        before, self._marked = self._marked, cluster
+        if self._selection is None and cluster is not None:
+            palette = self._settings.palette
+            self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
+        if self._selection:
+            self._selection.show(pair, cluster, self._turn[2])
+        if before is not cluster:
+            self._show_source(pair)
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
         """A point or a direction (3,) of the drawing in the recording's fixed frame."""
@@ -207,6 +213,8 @@ class Scene:
         if settings.palette != before.palette:
             self._clouds.paint(settings.palette)
             self._stage.paint(settings.palette)
+            if self._selection:
+                self._selection.paint(settings.palette)
         if settings.point_size != before.point_size and self._lens:
             self._fit(self._lens)
         if self._shown:
@@ -245,6 +253,8 @@ class Scene:
                 label for layer, label in _LABELS.items() if layer not in self._settings.layers
             ]
             drawn = ~np.isin(pair.flow.label, hidden)
+            if self._marked is not None:
+                drawn[self._marked.source] = False  # they are drawn as picked
             points, colours = points[drawn], colours[drawn]
         self._clouds.show_source(points, colours)
 

@@ -6,8 +6,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.colours import PICKED
 from app.estimates import Pair
+from app.palettes import Palette
 from app.scene.stage import FIXED
 from app.selection import points_of
 from estimator import ClusterResult
@@ -28,14 +28,18 @@ _EDGES = np.array(
 
 
 class SelectionView:
-    """Draws what is picked, and nothing where nothing is."""
+    """Draws what is picked, and nothing where nothing is.
 
-    def __init__(self, scene: viser.SceneApi, point_size: float) -> None:
+    Attributes:
+        points: the picked source points.
+    """
+
+    def __init__(self, scene: viser.SceneApi, palette: Palette, point_size: float) -> None:
         self._frame = scene.add_frame(PICKED_NODE, show_axes=False, visible=False)
-        self._points = scene.add_point_cloud(
+        self.points = scene.add_point_cloud(
             f"{PICKED_NODE}/points",
             np.zeros((0, 3)),
-            PICKED,
+            palette.picked,
             point_size=_LARGER * point_size,
             point_shape="circle",
             point_shading="flat",
@@ -44,7 +48,7 @@ class SelectionView:
         self._box = scene.add_line_segments(
             f"{PICKED_NODE}/box",
             np.zeros((12, 2, 3)),
-            PICKED,
+            palette.picked,
             thickness=_THICKNESS,
             thickness_units="screen",
         )
@@ -63,11 +67,16 @@ class SelectionView:
             return
         points = points_of(pair, cluster)
         middle = points.mean(axis=0)
-        self._points.points = pair.source.points[cluster.source].astype(np.float32)
+        self.points.points = pair.source.points[cluster.source].astype(np.float32)
         self._box.points = box_around(points)
         self._label.text = f"Cluster {cluster.index}: {cluster.label.name.lower()}"
         self._label.position = middle + (float(((points - middle) @ up).max()) + 2 * _MARGIN) * up
         self._frame.visible = True
+
+    def paint(self, palette: Palette) -> None:
+        """Draw in the colour of a palette."""
+        self.points.colors = np.array(palette.picked, dtype=np.uint8)
+        self._box.colors = np.array(palette.picked, dtype=np.uint8)
 
     def thicken(self, factor: float) -> None:
         """Draw the box with lines this many times thicker."""
@@ -75,7 +84,7 @@ class SelectionView:
 
     def set_point_size(self, metres: float) -> None:
         """Draw larger points than those of this radius."""
-        self._points.point_size = _LARGER * metres
+        self.points.point_size = _LARGER * metres
 
 
 def box_around(points: NDArray[np.float64]) -> NDArray[np.float32]:

@@ -13,8 +13,17 @@ _CAMERA = """() => {
 
 
 def pixel(tab: Tab, point: NDArray[np.float64]) -> tuple[float, float]:
-    """Where a point (3,) of the fixed frame is on the page."""
-    return tuple(pixels(tab, point[None])[0])
+    """Where a point (3,) of the fixed frame is on the page, once the camera stands still."""
+    before = np.full((1, 2), np.nan)
+
+    def still() -> bool:
+        nonlocal before
+        tab.page.wait_for_timeout(300)
+        last, before = before, pixels(tab, point[None])
+        return bool(np.abs(before - last).max() < 0.5)
+
+    tab.until(still)
+    return tuple(before[0])
 
 
 def pixels(tab: Tab, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -42,6 +51,7 @@ def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
     tab.until(lambda: tab.has_text("Moving: fitness"))
     picked = {tuple(point) for point in tab.points("picked/points")}
     assert {tuple(point) for point in moving} <= picked
+    assert not picked & {tuple(point) for point in tab.points("source")}, "they are drawn twice"
     tab.page.mouse.click(*background(tab))
     tab.until(lambda: not tab.has_text("Moving: fitness"))
 

@@ -72,3 +72,18 @@ def test_a_click_in_the_timeline_goes_there(tab: Tab):
         tab.page.mouse.click(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
         tab.until(lambda share=share: abs(tab.value("Frame") - share * last) <= 1)
         tab.until(lambda: tab.has_text(f"Frame {tab.value('Frame'):.0f} of"))
+
+
+def test_keys_play_after_a_recording_was_chosen_and_a_number_was_entered(tab: Tab):
+    tab.choose("sideways")
+    tab.until(lambda: tab.has_text("Simulated: sideways"))
+    frame = tab.value("Frame")
+    press(tab, "l")
+    tab.until(lambda: tab.value("Frame") == frame + 1)
+    number = tab.row("n").locator("input:not([type=hidden])")
+    number.fill("7")
+    number.press("Enter")
+    tab.page.wait_for_timeout(200)
+    press(tab, "l")
+    tab.until(lambda: tab.value("Frame") == frame + 2)
+    assert tab.value("n") == 7

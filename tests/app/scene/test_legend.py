@@ -1,8 +1,13 @@
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
+from app.comparison_sides import A
 from app.estimates import Estimates
-from app.panels.legend import LegendPanel, html
+from app.panels.legend import LegendPanel
 from app.scene.legend import Legend, Mark, legend
+from app.scene.legend_html import html
 from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
@@ -47,20 +52,31 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
     assert (ramp.low, ramp.high) == ("Flow: 0", "0.3 m/s")
     ramp = legend(pair, ViewSettings(arrow_colours=BY_DIRECTION), 0.3).ramp
     assert ramp is not None
-    assert ramp.low == "Flow: -180°"
+    assert ramp.low == "Flow: −180°"
     (cluster,) = set(pair.flow.cluster[pair.flow.label == 2])
     assert f"Flow: cluster {cluster}" in texts(pair, ViewSettings(arrow_colours=BY_CLUSTER))
 
 
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
-    colours = {
-        mark.text: mark.colour for mark in legend(pair, ViewSettings(), 0.3, both=True).marks
-    }
+    colours = {mark.text: mark.colour for mark in legend(pair, ViewSettings(), 0.3, A).marks}
     palette = ViewSettings().palette
-    assert (colours["Flow of A"], colours["Flow of B"]) == (palette.flow, palette.second)
+    assert colours["Flow of A: way in 0.5 s"] == palette.flow
+    assert colours["Flow of B: way in 0.5 s"] == palette.second
     assert "Flow: way in 0.5 s" not in colours
+    assert "Source of A: moving" in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
-    assert "Flow of B" not in [mark.text for mark in legend(pair, hidden, 0.3, both=True).marks]
+    assert not [mark.text for mark in legend(pair, hidden, 0.3, A).marks if "Flow" in mark.text]
+
+
+def test_the_picked_cluster_and_clusters_beyond_the_first_few_are_said(pair):
+    picked = pair.flow.clusters[1]
+    assert f"Picked: cluster {picked.index}" in [
+        mark.text for mark in legend(pair, ViewSettings(), 0.3, picked=picked).marks
+    ]
+    several = np.arange(len(pair.flow.label)) % 9
+    flow = replace(pair.flow, cluster=several, label=np.full(len(several), 2))
+    marks = legend(replace(pair, flow=flow), ViewSettings(arrow_colours=BY_CLUSTER), 0.3).marks
+    assert "Flow: 3 more clusters" in [mark.text for mark in marks]
 
 
 def test_nothing_drawn_needs_no_legend():
