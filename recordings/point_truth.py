@@ -101,14 +101,6 @@ class PointTruths:
             velocity[mine] = (carried - points) / seconds + own
         return velocity
 
-    def posed(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.bool_]:
-        """Which points (N,) of the source cloud are of an object whose poses are recorded."""
-        start = self.at(source_k, cloud)
-        if start is None:
-            return np.zeros(len(cloud.points), dtype=bool)
-        known = [n for n in self._poses if self._pose_change(n, source_k, target_k) is not None]
-        return np.isin(start[1], known)
-
     def _pose_change(self, number: int, source_k: int, target_k: int) -> Transform | None:
         """What takes points of an object at the source to where they are at the target frame."""
         poses = self._poses.get(number)

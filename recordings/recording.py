@@ -179,9 +179,6 @@ class Recording:
             return PairTruth(velocity, velocity)
         own = self._parts.point_truths
         points = own.over(source_k, target_k, cloud) if own else None
-        if own and points is not None:
-            posed = own.posed(source_k, target_k, cloud)
-            velocity = np.where(posed[:, None], points, velocity)
         return PairTruth(velocity, points)
 
     @property

@@ -15,9 +15,8 @@ class PairTruth:
     """The truth over a pair, as the mean over its interval.
 
     Attributes:
-        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it. Where
-            the recording knows the poses of several objects, each point of one of them is compared
-            with that one, and every other point with the target.
+        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it: where it
+            turns, every point is carried round with it.
         points: (N, 3) m/s of each source point itself, zero where static, NaN where unknown;
             None where the recording does not say.
     """

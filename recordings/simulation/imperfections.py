@@ -50,7 +50,10 @@ IMPERFECTIONS = {
             "what moves takes 0.25 s to reach its speed and 0.25 s to stop, instead of jumping",
         ),
         Imperfection("dropped_frames", "frames are lost, 5 % of them"),
-        Imperfection("stamp_jitter", "frames are taken early or late, one sigma 4 ms"),
+        Imperfection(
+            "stamp_jitter",
+            "readings are stamped earlier or later than they were taken, one sigma 4 ms",
+        ),
     )
 }
 """{name: imperfection}, in the order in which they are named."""

@@ -68,7 +68,7 @@ def simulate(
     rays = ZoneRays(rig)
     static = PieceCaster({index: piece.mesh for index, piece in enumerate(scene.static)})
     surfaces = {index: piece.surface for index, piece in enumerate(scene.static)}
-    for time, lost in _times(scene.duration, on, streams):
+    for time, said, lost in _times(scene.duration, on, streams):
         links = scene.own.link_poses(time)
         T_base_sensor = np.stack([links[s.link] @ s.T_link_sensor for s in rig.sensors])
         bodies = dict(enumerate(scene.bodies(time), len(scene.static)))
@@ -81,29 +81,31 @@ def simulate(
         if lost:
             continue
         in_sensor = report.seen.distance[..., None] * rig.model.directions
-        target = scene.target(time)
+        # Only the readings are stamped wrongly: joints and poses belong to the stamp.
+        target = scene.target(said)
         yield Frame(
-            stamp=_FIRST_STAMP + time,
+            stamp=_FIRST_STAMP + said,
             ranges=report.ranges,
             status=report.status,
-            joint_positions=scene.own.joint_positions(time),
+            joint_positions=scene.own.joint_positions(said),
             T_base_target=target.T_fixed_body,
             target_velocity=target.rate[:3, 3],
             target_turn_rate=target.turn_rate,
-            object_poses=scene.object_poses(time),
+            object_poses=scene.object_poses(said),
             truth=_truth(report.valid, in_sensor, report.seen.piece, T_base_sensor, bodies),
         )
 
 
 def _times(
     duration: float, imperfections: Collection[str], streams: Streams
-) -> Iterator[tuple[float, bool]]:
-    """When each frame is taken, seconds from the start, and whether it is lost."""
+) -> Iterator[tuple[float, float, bool]]:
+    """When each frame is taken and when it says so, seconds from the start; whether it is lost."""
     jitter, loss = streams.of("stamp_jitter"), streams.of("dropped_frames")
     for k in range(int(duration * RATE) + 1):
         early_or_late = float(np.clip(_JITTER * jitter.standard_normal(), -_MOST, _MOST))
         lost = bool(loss.random() < _LOST) and "dropped_frames" in imperfections
-        yield k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0), lost
+        said = k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0)
+        yield k / RATE, said, lost
 
 
 def _truth(

@@ -18,10 +18,8 @@ class Surface:
 
 
 PLASTIC = Surface(0.6)
-SKIN = Surface(0.5)
 CLOTH = Surface(0.4)
 PAINT = Surface(0.8)
-CONCRETE = Surface(0.3)
 CARDBOARD = Surface(0.5)
 STEEL = Surface(0.4)
 WOOD = Surface(0.5, hard=True)

@@ -20,7 +20,7 @@ def test_lost_frames_are_missing_and_the_others_are_the_same():
         assert np.array_equal(frame.ranges, all_of_them[stamp].ranges, equal_nan=True)
 
 
-def test_frames_that_are_early_or_late_show_where_things_are_then():
+def test_stamps_that_are_wrong_leave_the_readings_and_all_else_is_as_the_stamp_says():
     simulated = list(
         frames(SCENARIOS["towards"], 0.6, noise="none", imperfections=("stamp_jitter",))
     )
@@ -31,6 +31,10 @@ def test_frames_that_are_early_or_late_show_where_things_are_then():
     moving = [frame for frame in simulated if frame.target_velocity.any()]
     gone = [frame.T_base_target[1, 3] - simulated[0].T_base_target[1, 3] for frame in moving]
     assert gone == pytest.approx([-0.6 * (frame.stamp - 1.7) for frame in moving])
+    right = list(frames(SCENARIOS["towards"], 0.6, noise="none"))
+    assert len(right) == len(simulated)
+    for frame, same in zip(simulated, right, strict=True):
+        assert np.array_equal(frame.ranges, same.ranges, equal_nan=True)
 
 
 def test_the_reader_drops_what_the_status_says_is_no_distance(tmp_path: Path):

@@ -33,7 +33,7 @@ def test_what_turns_is_followed_exactly_over_a_pair(tmp_path: Path, imperfection
         assert not truth.points[~moving].any()
         # The paper's errors compare every point with what turns.
         assert np.isfinite(truth.velocity).all()
-        assert truth.velocity[moving] == pytest.approx(truth.points[moving])
+        assert truth.velocity[moving] == pytest.approx(truth.points[moving], abs=2e-3)
         arms = cloud.points[~moving, :2] - axis
         exact = (arms @ turned.T - arms) / interval
         assert truth.velocity[~moving, :2] == pytest.approx(exact, abs=5e-3)
@@ -47,7 +47,9 @@ def _start_offset(name: str, speed: float) -> np.ndarray:
     return np.random.default_rng(key).uniform(-0.015, 0.015, 3)[:2]
 
 
-def test_of_two_that_cross_each_is_compared_with_itself(tmp_path: Path):
+def test_of_two_that_cross_one_is_the_target_and_each_point_has_its_own_truth(
+    tmp_path: Path,
+):
     path = written(tmp_path / "x.mcap", "crossing")
     with open_recording(path) as recording:
         k = len(recording) // 2 - 6
@@ -58,8 +60,10 @@ def test_of_two_that_cross_each_is_compared_with_itself(tmp_path: Path):
         forth, back = velocity[:, 0] > 0.1, velocity[:, 0] < -0.1
         assert forth.sum() > 30
         assert back.sum() > 10
-        for mine, speed in ((forth, 0.5), (back, -0.5), (~forth & ~back, 0.5)):
-            assert truth.velocity[mine] == pytest.approx(
+        everywhere = np.tile([0.5, 0.0, 0.0], (len(velocity), 1))
+        assert truth.velocity == pytest.approx(everywhere, abs=1e-5)
+        for mine, speed in ((forth, 0.5), (back, -0.5), (~forth & ~back, 0.0)):
+            assert truth.points[mine] == pytest.approx(
                 np.tile([speed, 0.0, 0.0], (mine.sum(), 1)), abs=1e-5
             )
         assert recording.truth(k) == pytest.approx([0.5, 0.0, 0.0])
@@ -118,4 +122,3 @@ def test_without_poses_a_turn_is_found_from_the_velocities(tmp_path: Path):
         # Half a radian a second for half a second changes velocities by an eighth.
         assert np.abs(by_poses - start).max() > 0.02
         assert by_velocities == pytest.approx(by_poses, abs=1e-5)
-        assert not own.posed(k - 8, k, cloud).any()
