@@ -3,8 +3,10 @@
 import argparse
 import os
 import shlex
+import signal
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
@@ -160,6 +162,26 @@ def _add_execution(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
+    with _stopped_like_by_ctrl_c():
+        return _run(options)
+
+
+@contextmanager
+def _stopped_like_by_ctrl_c() -> Iterator[None]:
+    """SIGTERM is answered as Ctrl-C is: workers are stopped and scratch is cleared away."""
+
+    def stop(*_: object) -> None:
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once: clearing away is under way
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _run(options: argparse.Namespace) -> int:
     begin = monotonic()
     plan = _plan(options)
     if options.jobs < 1:
@@ -201,28 +223,34 @@ def run(options: argparse.Namespace) -> int:
 def _execute(
     options: argparse.Namespace, store: Store, left: list[Work], total: int
 ) -> list[str] | None:
-    """Do what is left; sentences about what failed, or None where Ctrl-C stopped it."""
+    """Do what is left; sentences about what failed, or None where it was stopped."""
     failures: list[str] = []
-    progress = Progress(total, total - len(left))
+    unkept: list[str] = []
+    progress = Progress(left, total, 1 if options.dask else options.jobs)
     running = outcomes(left, options.jobs, options.dask)
     try:
         for outcome in running:
             if outcome.failure:
                 failures.append(outcome.failure)
             else:
-                store.keep(outcome)
-            progress.advance(outcome.source.name)
+                try:
+                    store.keep(outcome)
+                except InputError as error:
+                    unkept.append(str(error))
+            progress.advance(outcome.source)
     except KeyboardInterrupt:
         progress.close()
         print(
-            f"Stopped: {progress.finished} of {total} recordings are finished and kept; the same "
-            "command goes on from there.",
+            f"Stopped: {progress.finished - len(unkept)} of {total} recordings are finished and "
+            "kept; the same command goes on from there.",
             file=sys.stderr,
         )
         return None
     finally:
         running.close()
         progress.close()
+        for said in unkept:
+            print(f"Not kept for another time: {said}", file=sys.stderr)
     return failures
 
 
@@ -239,10 +267,12 @@ def _plan(options: argparse.Namespace) -> Plan:
                 "they are; give one or the other."
             )
         opening_from(options)  # RigError or RobotError where a file cannot be used
+        # Workers of a cluster run in folders of their own.
+        rig, urdf = (path and path.absolute() for path in (options.rig, options.urdf))
         return replace(
             plan,
             recordings=tuple(
-                Recorded(path, options.fixed_frame, options.truth_frame, options.rig, options.urdf)
+                Recorded(path.absolute(), options.fixed_frame, options.truth_frame, rig, urdf)
                 for path in recording_paths(options.recordings)
             ),
         )

@@ -2,6 +2,7 @@
 
 import signal
 import tempfile
+import warnings
 from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
@@ -50,7 +51,10 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     try:
         yield from done
     finally:
-        done.close()
+        with warnings.catch_warnings():
+            # That not all was done is what whoever closes this wants, and says.
+            warnings.simplefilter("ignore", UserWarning)
+            done.close()
 
 
 def _leave_ctrl_c_to_us() -> None:

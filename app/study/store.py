@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,9 @@ from typing import Any
 from app.errors import InputError
 from app.study.work import Ask, Outcome, Recorded, Result, Source, Work
 from estimator import Parameters
+
+_LONGEST_NAME = 80
+"""Bytes of a recording's name in that of its file; file systems take 255 in all."""
 
 
 class Store:
@@ -29,6 +33,8 @@ class Store:
     def __init__(self, folder: Path, software: str) -> None:
         self._folder = folder
         self._software = software
+        self._unwritten: dict[Source, Outcome] = {}
+        self._contents: dict[tuple[Path, int, int], str] = {}
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -55,6 +61,8 @@ class Store:
     def keep(self, outcome: Outcome) -> None:
         """Add what came of a unit of work; failures are not kept, so that they are tried again.
 
+        What cannot be written is known all the same, as long as this store is there.
+
         Raises:
             InputError: the file cannot be written.
         """
@@ -63,8 +71,9 @@ class Store:
         before = self._load(outcome.source)
         known = {r.ask: r for r in (before.results if before else ())}
         known |= {r.ask: r for r in outcome.results}
+        whole = replace(outcome, results=tuple(known.values()))
         path = self._path(outcome.source)
-        content = asdict(replace(outcome, results=tuple(known.values())))
+        content = asdict(whole)
         content["source"] = _as_json(outcome.source)
         # Written beside and renamed: whoever stops in between leaves the old file or the new one.
         draft = path.with_suffix(".draft")
@@ -72,9 +81,14 @@ class Store:
             draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
             os.replace(draft, path)
         except OSError as error:
+            self._unwritten[outcome.source] = whole
+            with suppress(OSError):
+                draft.unlink()
             raise InputError(f"{path} cannot be written: {error.strerror}.") from error
 
     def _load(self, source: Source) -> Outcome | None:
+        if source in self._unwritten:
+            return self._unwritten[source]
         try:
             content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
             results = tuple(
@@ -98,26 +112,36 @@ class Store:
             # Not there, or not ours, or half a file: then it is computed again.
             return None
 
-    def _path(self, source: Source) -> Path:
+    def digest(self, source: Source) -> str:
+        """Of all that decides a recording's results: equal where they are equal."""
         identity = _as_json(source) | {"software": self._software}
         if isinstance(source, Recorded):
-            del identity["path"]
             for key in ("path", "rig", "urdf"):
-                identity[f"{key}_content"] = _content(getattr(source, key))
-        digest = hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
-        return self._folder / f"{source.name}-{digest[:16]}.json"
+                identity[key] = self._content(getattr(source, key))
+        return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
+
+    def _path(self, source: Source) -> Path:
+        # The digest says which it is; the name, cut where it is long, is for people.
+        name = os.fsencode(source.name)[:_LONGEST_NAME].decode(errors="ignore")
+        return self._folder / f"{name}-{self.digest(source)[:16]}.json"
+
+    def _content(self, path: Path | None) -> str | None:
+        """A digest of a file, None where it cannot be read: whoever opens it says why.
+
+        Recordings can be large: one is read once, unless it changes.
+        """
+        if path is None:
+            return None
+        try:
+            found = path.stat()
+            key = path, found.st_mtime_ns, found.st_size
+            if key not in self._contents:
+                with path.open("rb") as file:
+                    self._contents[key] = hashlib.file_digest(file, "sha256").hexdigest()
+            return self._contents[key]
+        except OSError:
+            return None
 
 
 def _as_json(source: Source) -> dict[str, Any]:
     return {k: str(v) if isinstance(v, Path) else v for k, v in asdict(source).items()}
-
-
-def _content(path: Path | None) -> str | None:
-    """A digest of a file, None where it cannot be read: whoever opens it says why."""
-    if path is None:
-        return None
-    try:
-        with path.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError:
-        return None

@@ -1,3 +1,4 @@
+import hashlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -71,12 +72,55 @@ def test_a_file_is_known_by_its_content_and_by_how_it_is_opened(tmp_path: Path):
     store.keep(finished(source, Ask(EIGHT)))
     assert store.finished(Work(source, (Ask(EIGHT),)))
     assert not store.finished(Work(replace(source, truth_frame="panel"), (Ask(EIGHT),)))
-    rig.write_bytes(b"two")
+    rig.write_bytes(b"other")
     assert not store.finished(Work(source, (Ask(EIGHT),)))
     rig.write_bytes(b"one")
     assert store.finished(Work(source, (Ask(EIGHT),)))
-    file.write_bytes(b"two")
+    file.write_bytes(b"other")
     assert not store.finished(Work(source, (Ask(EIGHT),)))
+
+
+def test_a_recording_is_read_once_and_has_no_name_in_what_decides_its_results(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    read: list[object] = []
+
+    def digest(file, kind):
+        read.append(file.name)
+        return hashlib.new(kind, file.read())
+
+    monkeypatch.setattr("hashlib.file_digest", digest)
+    (tmp_path / "a.mcap").write_bytes(b"one")
+    (tmp_path / "b.mcap").write_bytes(b"one")
+    a, b = Recorded(tmp_path / "a.mcap"), Recorded(tmp_path / "b.mcap")
+    store = Store(tmp_path / "results", "ours")
+    store.keep(finished(a, Ask(EIGHT)))
+    assert store.missing(Work(a, (Ask(EIGHT),))) is None
+    assert store.finished(Work(a, (Ask(EIGHT),)))
+    assert len(read) == 1
+    assert store.digest(a) == store.digest(b)
+
+
+@pytest.mark.parametrize("letter", ["a", "é", "\udcff"])
+def test_a_long_name_is_kept_like_any_other(tmp_path: Path, letter: str):
+    source = Recorded(tmp_path / f"{letter * 110}.mcap")
+    work = Work(source, (Ask(EIGHT),))
+    Store(tmp_path / "results", "ours").keep(finished(source, Ask(EIGHT)))
+    assert Store(tmp_path / "results", "ours").missing(work) is None
+
+
+def test_what_cannot_be_written_is_said_and_known_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    store = Store(tmp_path, "ours")
+    monkeypatch.setattr("os.replace", full)
+    with pytest.raises(InputError, match="cannot be written: No space left on device"):
+        store.keep(finished(SOURCE, Ask(EIGHT)))
+    assert list(tmp_path.iterdir()) == []
+    assert store.finished(Work(SOURCE, (Ask(EIGHT),))) == finished(SOURCE, Ask(EIGHT))
 
 
 def test_half_a_file_is_computed_again_and_a_failure_is_not_kept(tmp_path: Path):

@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -81,7 +82,20 @@ def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixtu
     assert (tiny / "tables" / "tables.json").read_bytes() == before
 
 
-def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(tmp_path: Path):
+@pytest.mark.parametrize(
+    "stop",
+    [
+        # As a terminal does, to all of its processes; and as whoever ends one process does.
+        lambda process: os.killpg(process.pid, signal.SIGINT),
+        lambda process: process.terminate(),
+    ],
+    ids=["ctrl-c", "terminated"],
+)
+def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
+    tmp_path: Path, stop: Callable[[subprocess.Popen[str]], None]
+):
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
     command = [
         *(sys.executable, "-c", "import sys; from app.command_line import main; sys.exit(main())"),
         *(
@@ -99,7 +113,7 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(tmp_path: Pa
         ),
         *("--scenario", "towards", "--sweep", "--method", "baseline"),
     ]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)}
     process = subprocess.Popen(
         command,
         cwd=tmp_path,
@@ -111,9 +125,12 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(tmp_path: Pa
     )
     results = tmp_path / "results"
     until(lambda: list(results.glob("*.json")), timeout=180)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to all of its processes
+    assert list(scratch.glob("tofscope-study-*"))
+    stop(process)
     _, said = process.communicate(timeout=30)
     assert process.returncode == 130
+    assert not list(scratch.glob("tofscope-study-*"))
+    until(lambda: not _running(process.pid), timeout=10)
     kept = {path: path.stat().st_mtime_ns for path in results.glob("*.json")}
     assert 1 <= len(kept) < 3
     assert said.count("\n") == 1
@@ -128,9 +145,19 @@ def test_ctrl_c_keeps_what_is_finished_and_the_same_command_goes_on(tmp_path: Pa
     assert len(list(results.glob("*.json"))) == 3
 
 
+def _running(group: int) -> bool:
+    """Whether a process of a group is alive: with the first one gone, a worker."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "in").mkdir()
     blind = ForeignFile()
     for k in range(3):
@@ -140,7 +167,10 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
     room = write_room(tmp_path / "in" / "room.mcap", frames=12)
     (tmp_path / "in" / "broken.mcap").write_bytes(b"nonsense")
     out = tmp_path / "out"
-    assert study(out, "--recordings", str(tmp_path / "in"), "--sweep") == 0
+    assert study(out, "--recordings", "in", "--sweep") == 0
+    # Wherever a worker runs it finds them.
+    kept = [json.loads(path.read_text()) for path in (out / "results").glob("*.json")]
+    assert str(room.path) in {content["source"]["path"] for content in kept}
     said = capsys.readouterr()
     assert "Not evaluated:" in said.err
     assert "not an MCAP file" in said.err
