@@ -35,6 +35,7 @@ class Page:
 
     def __init__(self, desk: Desk) -> None:
         self._client = desk.client
+        self._said: dict[str, viser.NotificationHandle] = {}
         set_up_keys(desk.client)
         set_up_fields(desk.client)
         set_up_scene_edge(desk.client)
@@ -71,6 +72,12 @@ class Page:
         """Show what the session shows."""
         for panel in self._panels:
             panel.show(shown)
+
+    def say(self, title: str, sentence: str) -> None:
+        """Tell a person something, in the place of what was said under this title before."""
+        if (before := self._said.get(title)) is not None:
+            before.remove()
+        self._said[title] = self._client.add_notification(title, sentence, auto_close_seconds=6)
 
     def leave(self) -> None:
         """End what is done for the client, which has gone."""

@@ -19,7 +19,7 @@ def _move(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> ClusterR
     current, displacement = icp_round(cluster.source, cluster.target, pair, parameters)
     reason = (
         f"the baseline moves every cluster: fitness {current.fitness:.2f}, "
-        f"mean displacement {current.mean_displacement:.3f} m"
+        f"mean displacement {1e3 * current.mean_displacement:.0f} mm"
     )
     velocity = displacement / pair.interval
     return cluster_result(cluster, cluster.source, [current], Label.MOVING, reason, velocity)

@@ -9,13 +9,15 @@ from app.palettes import Palette
 from app.panels.tables import Row, framed, signed, table
 from estimator import ClusterResult, IcpRound, Label, Parameters
 
+_SIX_ROWS = "calc(11.55em + 6px)"  # of the table of all clusters, below its head
+
 
 def fills(palette: Palette) -> dict[Label, str]:
-    """{label: how a bar or a swatch of it is filled}, on light and on dark."""
+    """{label: how a bar or a swatch of it is filled}, as its points are in the scene."""
     return {
         Label.MOVING: f'fill="{css(palette.flow)}"',
-        Label.STATIONARY: 'fill="currentColor" fill-opacity="0.55"',
-        Label.UNASSIGNED: 'fill="currentColor" fill-opacity="0.2"',
+        Label.STATIONARY: f'fill="{css(palette.stationary)}"',
+        Label.UNASSIGNED: f'fill="{css(palette.unassigned)}"',
     }
 
 
@@ -49,7 +51,7 @@ def cluster_table(
         for cluster in clusters
     ]
     return framed(
-        f'<div style="max-height: 12em; overflow-y: auto">{table(head, rows)}</div>'
+        f'<div style="max-height: {_SIX_ROWS}; overflow-y: auto">{table(head, rows)}</div>'
         if rows
         else "No clusters were found in this pair."
     )

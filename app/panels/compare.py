@@ -7,6 +7,8 @@ import viser
 
 from app.colours import css
 from app.comparison import A, B, Comparison
+from app.controls import show_value
+from app.errors import InputError
 from app.panel import Desk, Panel, Shown
 from app.panels.differences import changes, difference_table
 from app.panels.tables import framed
@@ -62,6 +64,18 @@ class DrawBoth(LatestWins):
 
 
 @dataclass(frozen=True)
+class ToggleBoth(LatestWins):
+    """Draw the flow of both where one is drawn, and the other way round."""
+
+    def fulfil(self, workbench: "Workbench") -> None:
+        """Draw so, or say that there is no B."""
+        before = workbench.comparison
+        if before is None:
+            raise InputError("There is no B to draw; copy A to B first.")
+        workbench.comparison = replace(before, both=not before.both)
+
+
+@dataclass(frozen=True)
 class RemoveB(LatestWins):
     """Go on with A alone."""
 
@@ -96,7 +110,10 @@ class ComparePanel(Panel):
             self._remove = gui.add_button(
                 "Remove B", icon=viser.Icon.X, color="gray", visible=False
             )
-        key = gui.add_command("Compare: switch between A and B", hotkey="B")
+        key = gui.add_command(
+            "Compare: switch between A and B", hotkey="B", icon=viser.Icon.SWITCH_HORIZONTAL
+        )
+        drawing = gui.add_command("Compare: draw both", icon=viser.Icon.LAYERS_INTERSECT)
         copying = gui.add_command("Compare: copy A to B", icon=viser.Icon.COPY)
         removing = gui.add_command("Compare: remove B", icon=viser.Icon.X)
 
@@ -108,6 +125,10 @@ class ComparePanel(Panel):
         @copying.on_trigger
         async def _(_: viser.CommandEvent) -> None:
             post(CopyToB())
+
+        @drawing.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            post(ToggleBoth())
 
         @removing.on_trigger
         async def _(_: viser.CommandEvent) -> None:
@@ -144,7 +165,7 @@ class ComparePanel(Panel):
         edited, other = comparison.edited, A if comparison.edited == B else B
         if before is None or before.both != comparison.both:
             # Otherwise it may have been switched a moment ago.
-            self._both.value = comparison.both
+            show_value(self._both, comparison.both)
         self._switch.label = f"Switch to {other}"
         colour = css(shown.settings.palette.second)
         mark = f' <span style="color: {colour}">■</span> The flow of B.'

@@ -102,7 +102,7 @@ class PlaybackPanel(Panel):
         last = max(len(opened.recording) - 1, 0)
         self._slider.max = last
         self._range.max = max(last, 1)
-        self._range.value = (0, max(last, 1))
+        show_value(self._range, (0, max(last, 1)))
         self._range.visible = last > 0
         self._arrived = False
 
@@ -136,7 +136,7 @@ class PlaybackPanel(Panel):
             show_value(self._loop, playback.loop)
         if not self._arrived:
             self._arrived = True
-            self._range.value = (playback.first, max(playback.last, 1))
+            show_value(self._range, (playback.first, max(playback.last, 1)))
 
     def _change(self, event: viser.GuiEvent, **values: Any) -> None:  # noqa: ANN401 (any field)
         if event.client_id is not None:

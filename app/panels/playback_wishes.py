@@ -53,7 +53,7 @@ class JumpToMotion(LatestWins):
             known = workbench.opened.recording.has_truth
             far = "" if known else " in the frames estimated so far"
             said = f"Nothing begins to move {where} this frame{far}."
-            workbench.client.add_notification("Motion", said, auto_close_seconds=5)
+            workbench.page.say("Motion", said)
         else:
             workbench.seek(frame)
 
@@ -112,16 +112,17 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
             post(wish)
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
-    add("One frame back", step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
-    add("One frame on", step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
-    add("One frame back (arrow)", step(-1), "arrowleft")
-    add("One frame on (arrow)", step(1), "arrowright")
-    add("Ten frames back", step(-10), "arrowleft", "shift")
-    add("Ten frames on", step(10), "arrowright", "shift")
+    # viser writes the arrows' names as they come; the signs say it better.
+    add("Previous frame", step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
+    add("Next frame", step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
+    add("Previous frame (←)", step(-1), "arrowleft", icon=Icon.PLAYER_TRACK_PREV)
+    add("Next frame (→)", step(1), "arrowright", icon=Icon.PLAYER_TRACK_NEXT)
+    add("Ten frames back (Shift ←)", step(-10), "arrowleft", "shift", Icon.CHEVRONS_LEFT)
+    add("Ten frames on (Shift →)", step(10), "arrowright", "shift", Icon.CHEVRONS_RIGHT)
     add("First frame", seek(0), "home", icon=Icon.PLAYER_SKIP_BACK)
     add("Last frame", seek(_LAST), "end", icon=Icon.PLAYER_SKIP_FORWARD)
     add("Next motion", JumpToMotion(1), "M", icon=Icon.RUN)
     add("Previous motion", JumpToMotion(-1), "M", "shift", icon=Icon.RUN)
-    add("Slower", ChangeSpeed(-1), "J", "shift")
-    add("Faster", ChangeSpeed(1), "L", "shift")
+    add("Slower", ChangeSpeed(-1), "J", "shift", Icon.MULTIPLIER_0_5X)
+    add("Faster", ChangeSpeed(1), "L", "shift", Icon.MULTIPLIER_2X)
     add("Loop on or off", ToggleLoop(), "R", icon=Icon.REPEAT)

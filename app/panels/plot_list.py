@@ -16,7 +16,7 @@ from app.survey import Survey
 _HEIGHT = 58  # pixels
 _MEANS = {
     "angle_deg": "Angle dev. [°]",
-    "velocity_error": "Vel. [m/s]",
+    "velocity_error": "Vel. error [m/s]",
     "coverage": "Coverage",
     "precision": "Precision",
 }
@@ -32,11 +32,13 @@ class Line:
         label: what people read, empty where the plot's title says it.
         name: attribute of the survey.
         colour: of the points, as in the scene where they stand for something in it.
+        needs_truth: whether it is empty without truth.
     """
 
     label: str
     name: str
     colour: Callable[[Palette], Colour]
+    needs_truth: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,9 +61,12 @@ class PlotSpec:
     needs_truth: bool
     top: float | None = None
 
-    def heading(self, survey: Survey | None, frame: int, colours: Palette) -> str:
-        """HTML: title, and the values at a frame."""
-        values = "".join(self._value(line, survey, frame, colours) for line in self.lines)
+    def heading(
+        self, survey: Survey | None, frame: int, colours: Palette, *, has_truth: bool
+    ) -> str:
+        """HTML: title, and the values at a frame, as far as there can be any."""
+        lines = [line for line in self.lines if has_truth or not line.needs_truth]
+        values = "".join(self._value(line, survey, frame, colours) for line in lines)
         unit = f' <span style="opacity: 0.6">[{self.unit}]</span>' if self.unit else ""
         return (
             '<div style="font-size: 0.75rem; padding: 0 1em; display: flex; white-space: nowrap">'
@@ -105,17 +110,16 @@ class PlotSpec:
             ),
         )
 
-    def add_to(
-        self, gui: viser.GuiApi, colours: Palette, *, with_times: bool
-    ) -> viser.GuiUplotHandle:
-        """Add it to a page, its horizontal axis labelled or not."""
-        axis = {"font": _FONT, "ticks": {"size": 3, "width": 1}, "gap": 3}
+    def label_times(self, handle: viser.GuiUplotHandle, *, labelled: bool) -> None:
+        """Label its horizontal axis or not, as high as that makes it."""
+        handle.axes = _axes(labelled=labelled)
+        handle.height = _HEIGHT + (14 if labelled else 0)
+
+    def add_to(self, gui: viser.GuiApi, colours: Palette) -> viser.GuiUplotHandle:
+        """Add it to a page, its horizontal axis without labels."""
         options: dict[str, Any] = {
             "scales": self.scales(1.0, None),
-            "axes": (
-                {**axis, "size": 18 if with_times else 4, "space": 40},
-                {**axis, "size": 42, "space": 18},
-            ),
+            "axes": _axes(labelled=False),
             "legend": {"show": False},
             # A click goes to a frame, and must not be the beginning of a zoom.
             "cursor": {
@@ -123,11 +127,9 @@ class PlotSpec:
                 "y": False,
                 "points": {"show": False},
             },
-            "height": _HEIGHT + (14 if with_times else 0),
+            "height": _HEIGHT,
             "padding": (4, 8, 0, 0),
         }
-        if not with_times:
-            options["axes"][0]["values"] = ()
         data = (np.array([0.0, 1.0]), *[np.full(2, np.nan)] * len(self.lines))
         return gui.add_uplot(data, self.series(colours), **options)
 
@@ -142,6 +144,12 @@ class PlotSpec:
         )
 
 
+def _axes(*, labelled: bool) -> tuple[Any, ...]:
+    axis = {"font": _FONT, "ticks": {"size": 3, "width": 1}, "gap": 3}
+    horizontal = {"size": 18} if labelled else {"size": 4, "values": ()}
+    return ({**axis, **horizontal, "space": 40}, {**axis, "size": 42, "space": 18})
+
+
 def _flow(colours: Palette) -> Colour:
     return colours.flow
 
@@ -152,7 +160,10 @@ PLOTS = (
         "Speed",
         "m/s",
         ".3f",
-        (Line("est.", "speed", _flow), Line("true", "true_speed", lambda colours: colours.truth)),
+        (
+            Line("est.", "speed", _flow),
+            Line("true", "true_speed", lambda colours: colours.truth, needs_truth=True),
+        ),
         False,
     ),
     PlotSpec("Angle deviation", "°", ".1f", (Line("", "angle_deg", _flow),), True),

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import viser
@@ -79,7 +79,7 @@ class PlotsPanel(Panel):
             self._plots: list[viser.GuiUplotHandle] = []
             for plot in PLOTS:
                 self._headings.append(gui.add_html(""))
-                self._plots.append(plot.add_to(gui, self._colours, with_times=plot is PLOTS[-1]))
+                self._plots.append(plot.add_to(gui, self._colours))
             self._time = TimeField(desk)
             save = gui.add_button("Save as CSV", icon=viser.Icon.DOWNLOAD, color="gray")
 
@@ -100,10 +100,13 @@ class PlotsPanel(Panel):
         end = _seconds(recording.stamps)
         self._time.open(opened)
         seek_by_clicks(self._desk.client, self._time.field, 0.0, end)
-        for plot, heading, handle in self._each():
-            heading.visible = handle.visible = recording.has_truth or not plot.needs_truth
-            handle.data = (np.array([0.0, end]), *[np.full(2, np.nan)] * len(plot.lines))
-            _set_scales(handle, plot.scales(end, None))
+        shown = [plot for plot in PLOTS if recording.has_truth or not plot.needs_truth]
+        with self._desk.client.atomic():
+            for plot, heading, handle in self._each():
+                heading.visible = handle.visible = plot in shown
+                plot.label_times(handle, labelled=plot is shown[-1])
+                handle.data = (np.array([0.0, end]), *[np.full(2, np.nan)] * len(plot.lines))
+                handle.scales = plot.scales(end, None)
 
     def close(self) -> None:
         """Ask for nothing of this recording any more."""
@@ -127,7 +130,9 @@ class PlotsPanel(Panel):
         colours, before = shown.settings.palette, self._colours
         self._colours = colours
         for plot, heading, handle in self._each():
-            heading.content = plot.heading(self.survey, shown.frame, colours)
+            heading.content = plot.heading(
+                self.survey, shown.frame, colours, has_truth=shown.opened.recording.has_truth
+            )
             if colours is not before:
                 handle.series = plot.series(colours)
 
@@ -135,21 +140,23 @@ class PlotsPanel(Panel):
         """Show what is known by now, unless something else was asked for meanwhile."""
         if asked is not self._asked:
             return
+        # Other scales make the page build a plot anew, and so do the same ones once more. A plot
+        # that is given data while it is still being built loses its horizontal axis: the last data
+        # come with building it, and so do the first, which may follow `open` at once.
+        anew = self.survey is None or survey.complete
         self.survey = survey
         recording = asked[0].recording
         self._summary.content = summary(survey, has_truth=recording.has_truth)
         times = recording.stamps - recording.stamps[0]
-        for plot, _, handle in self._each():
-            handle.data = (times, *plot.data(survey))
-            _set_scales(handle, plot.scales(_seconds(recording.stamps), survey))
+        with self._desk.client.atomic():
+            for plot, _, handle in self._each():
+                handle.data = (times, *plot.data(survey))
+                scales = plot.scales(_seconds(recording.stamps), survey)
+                if anew or handle.scales != scales:
+                    handle.scales = scales
 
     def _each(self) -> Iterator[tuple[PlotSpec, viser.GuiHtmlHandle, viser.GuiUplotHandle]]:
         return zip(PLOTS, self._headings, self._plots, strict=True)
-
-
-def _set_scales(handle: viser.GuiUplotHandle, scales: dict[str, Any]) -> None:
-    if handle.scales != scales:  # other scales make the page build the plot anew
-        handle.scales = scales
 
 
 def _seconds(stamps: NDArray[np.float64]) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import viser
 from viser import Icon
 
+from app.controls import show_value
 from app.errors import InputError
 from app.panel import Desk, Panel, Shown
 from app.parameter_files import from_text, to_text
@@ -144,9 +145,8 @@ class PresetsPanel(Panel):
         replaced = name in self._presets.names()
         self._presets.save(name, workbench.parameters)
         self._show(name)
-        if replaced:
-            said = f"{name} was there already; it holds these parameters now."
-            workbench.client.add_notification("Preset replaced", said, auto_close_seconds=8)
+        was = " was there already; it" if replaced else ""
+        workbench.page.say("Preset saved", f"{name}{was} holds these parameters now.")
 
     def _delete(self, workbench: "Workbench", name: str) -> None:
         del workbench
@@ -157,4 +157,4 @@ class PresetsPanel(Panel):
         self._listed_at = time.monotonic()
         if names != self._list.options:
             self._list.options = names
-        self._list.value = chosen if chosen in names else names[0]
+        show_value(self._list, chosen if chosen in names else names[0])

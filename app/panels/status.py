@@ -48,9 +48,10 @@ class StatusPanel(Panel):
         data = "simulated" if shown.opened.recording.simulated else "measured"
         cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Data", data)])
         grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
+        note = note_on(pair, shown.parameters, shown.opened.recording.truth_frame)
         # The note keeps its place also where there is none: the controls below stay put while a
         # person drags one of them.
-        note = f'<div style="min-height: 3em">{escape(note_on(pair, shown.parameters))}</div>'
+        note = f'<div style="min-height: 2.4em; line-height: 1.2">{escape(note)}</div>'
         self._content.content = _framed(f'<div style="{grid}">{cells}</div>{note}')
 
 
@@ -81,8 +82,14 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
     ]
 
 
-def note_on(pair: Pair, parameters: Parameters) -> str:
-    """What the numbers cannot say: why there is no flow, and what to do about it."""
+def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) -> str:
+    """What the numbers cannot say: why there is no flow, and what to do about it.
+
+    Args:
+        pair: that is shown.
+        parameters: of its estimate.
+        truth_frame: whose motion the truth is, None where none was named.
+    """
     if pair.source is None:
         return f"No pair: frame k-n = {pair.frame - parameters.n} is before the start."
     if pair.flow is None:
@@ -91,9 +98,13 @@ def note_on(pair: Pair, parameters: Parameters) -> str:
         return "The moving object is at rest."
     if not pair.flow.moving.any():
         return _why_nothing_moves(pair, pair.flow, parameters)
-    if pair.truth is None:
-        return "No truth here: errors are known with --truth-frame, or where a target is recorded."
-    return ""
+    return "" if pair.truth else _why_no_truth(truth_frame)
+
+
+def _why_no_truth(truth_frame: str | None) -> str:
+    if truth_frame is not None:
+        return "No truth here: the truth frame has no pose over this pair."
+    return "No truth here: errors are known with --truth-frame, or where a target is recorded."
 
 
 def _why_nothing_moves(pair: Pair, flow: SceneFlow, parameters: Parameters) -> str:
@@ -110,7 +121,7 @@ def _why_nothing_moves(pair: Pair, flow: SceneFlow, parameters: Parameters) -> s
     stationary = [c for c in flow.clusters if c.label is Label.STATIONARY]
     if stationary:
         most = max(c.mean_displacement for c in stationary)
-        return f"Nothing moves: displacements reach {most:.3f} m, below δ."
+        return f"Nothing moves: displacements reach {1e3 * most:.0f} mm, below δ."
     fitness = max((r.fitness for c in flow.clusters for r in c.rounds), default=0.0)
     return f"Nothing moves: fitness reaches {fitness:.2f}, not above γ."
 

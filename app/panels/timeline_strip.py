@@ -7,6 +7,7 @@ from app.timeline import Timeline
 
 _GAP = 4  # number of the category whose colour gaps have
 _WIDTH = 1000  # of the drawing, stretched to the slider's
+_THIN = 3.0  # width of the mark of a gap
 
 
 def strip(timeline: Timeline, playback: Playback, palette: Palette, attributes: str) -> str:
@@ -20,11 +21,12 @@ def strip(timeline: Timeline, playback: Playback, palette: Palette, attributes: 
     """
     x = _Scale(timeline.count)
     flow, nothing, gap = css(palette.flow), css(palette.unassigned), css(palette.category(_GAP))
-    marks = [_bar(x(a), x(b), 2, 8, flow) for a, b in timeline.moving]
-    marks += [_bar(x(a), x(b), 4, 4, nothing) for a, b in timeline.empty]
-    marks += [_bar(x(k - 0.5), x(k - 0.5), 0, 12, gap) for k in timeline.gaps]
-    base = _bar(0, _WIDTH, 5, 2, "currentColor", 0.25)
-    shown = _bar(x(playback.first), x(playback.last), 5, 2, "currentColor", 0.6)
+    # There may be many gaps: they lie above what moves, and are thin enough to be told apart.
+    marks = [_bar(x(k - 0.5), x(k - 0.5), 0, 3, gap, thin=_THIN) for k in timeline.gaps]
+    marks += [_bar(x(a), x(b), 4, 8, flow) for a, b in timeline.moving]
+    marks += [_bar(x(a), x(b), 6, 4, nothing) for a, b in timeline.empty]
+    base = _bar(0, _WIDTH, 7, 2, "currentColor", 0.25)
+    shown = _bar(x(playback.first), x(playback.last), 7, 2, "currentColor", 0.6)
     legend = [("moving", flow, len(timeline.moving)), ("gap", gap, len(timeline.gaps))]
     legend.append(("empty", nothing, len(timeline.empty)))
     said = "".join(_key(name, colour) for name, colour, number in legend if number)
@@ -47,9 +49,17 @@ class _Scale:
         return _WIDTH * frame / self._count
 
 
-def _bar(start: float, end: float, top: int, height: int, colour: str, opacity: float = 1.0) -> str:
+def _bar(
+    start: float,
+    end: float,
+    top: int,
+    height: int,
+    colour: str,
+    opacity: float = 1.0,
+    thin: float = 12.0,
+) -> str:
     # A single frame is still seen.
-    start, width = (start - 6.0, 12.0) if end - start < 12.0 else (start, end - start)
+    start, width = (start - thin / 2, thin) if end - start < thin else (start, end - start)
     return (
         f'<rect x="{start:.1f}" y="{top}" width="{width:.1f}" height="{height}"'
         f' fill="{colour}" opacity="{opacity:g}"/>'

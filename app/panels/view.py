@@ -1,12 +1,13 @@
 """Where the camera stands, and how things are drawn: views, colours, sizes, layers."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, ClassVar, Literal, Self
 
 import numpy as np
 import viser
 from viser import Icon
 
+from app.controls import show_value
 from app.palettes import PALETTES
 from app.panel import Desk, Panel, Shown
 from app.scene.lens import Lens
@@ -28,9 +29,8 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
 
 
 @dataclass(frozen=True)
-class ToggleDark:
-    """Dark where it is light, and the other way round, this many times."""
-
+class _Toggle:
+    setting: ClassVar[str]
     times: int = 1
 
     def after(self, earlier: Self) -> Self:
@@ -40,7 +40,20 @@ class ToggleDark:
     def fulfil(self, workbench: "Workbench") -> None:
         """Draw so."""
         if self.times % 2:
-            workbench.change_view({"dark": not workbench.settings.dark})
+            before = getattr(workbench.settings, self.setting)
+            workbench.change_view({self.setting: not before})
+
+
+class ToggleDark(_Toggle):
+    """Dark where it is light, and the other way round, this many times."""
+
+    setting = "dark"
+
+
+class ToggleLegend(_Toggle):
+    """The legend where there is none, and the other way round, this many times."""
+
+    setting = "legend"
 
 
 class ViewPanel(Panel):
@@ -49,6 +62,7 @@ class ViewPanel(Panel):
     def __init__(self, desk: Desk) -> None:
         self._gui, self._settings, self._post = desk.client.gui, desk.settings, desk.post
         self._dark = False  # a page begins light
+        self._legend = desk.settings.legend
         with self._gui.add_folder("View"):
             self._add_views(desk.client.camera)
             with self._gui.add_folder("Colours, sizes, layers", expand_by_default=False):
@@ -57,9 +71,13 @@ class ViewPanel(Panel):
                 self._add_layers()
 
     def show(self, shown: Shown) -> None:
-        """Dress the page in light or dark."""
+        """Dress the page in light or dark, and follow the commands."""
+        if shown.settings.legend != self._legend:
+            self._legend = shown.settings.legend
+            show_value(self._legend_box, self._legend)
         if shown.settings.dark != self._dark:
-            self._dark = self._dark_box.value = shown.settings.dark
+            self._dark = shown.settings.dark
+            show_value(self._dark_box, self._dark)
             dress(self._gui, self._dark)
 
     def _add_views(self, camera: viser.CameraHandle) -> None:
@@ -96,9 +114,11 @@ class ViewPanel(Panel):
             hint="What the colour of an arrow says; the legend says which is which.",
         )
         dark = self._dark_box = self._gui.add_checkbox("Dark", self._settings.dark)
-        legend = self._gui.add_checkbox("Legend", self._settings.legend)
+        legend = self._legend_box = self._gui.add_checkbox("Legend", self._settings.legend)
         toggle = self._gui.add_command("Dark or light", icon=Icon.MOON)
         toggle.on_trigger(lambda _: self._post(ToggleDark()))
+        toggle_legend = self._gui.add_command("Legend", icon=Icon.LIST_DETAILS)
+        toggle_legend.on_trigger(lambda _: self._post(ToggleLegend()))
         self._connect(colours, "colours", PALETTES)
         self._connect(arrows, "arrow_colours", ARROW_COLOURS)
         self._connect(dark, "dark", (False, True))

@@ -1,5 +1,6 @@
 """Where the camera stands at first: sensors and what is near them in the picture, at a slant."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +26,7 @@ def first_view(
     R_drawing_fixed: Vector,
     fov: float,
     aspect: float,
-    moving: Vector | None = None,
+    important: Sequence[Vector] = (),
 ) -> View:
     """A view of the sensors and of what they see near by.
 
@@ -35,13 +36,14 @@ def first_view(
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         fov: vertical field of view of the camera, rad.
         aspect: width by height of the picture.
-        moving: (M, 3) points in the fixed frame that are to be seen, wherever they are.
+        important: sets of points (M, 3) in the fixed frame, of each of which most are to be seen,
+            wherever they are.
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     box = [*corners(points @ R_drawing_fixed.T, sensors)]
-    if moving is not None and len(moving):
-        box += [*np.percentile(moving @ R_drawing_fixed.T, [5, 95], axis=0)]
+    for seen in important:
+        box += [*spread(seen @ R_drawing_fixed.T)]
     low, high = np.min(box, axis=0), np.max(box, axis=0)
     centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
@@ -65,6 +67,11 @@ def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> f
     ways = signs * half
     aside = np.maximum(np.abs(ways @ right) / aspect, np.abs(ways @ up)) / slope
     return float((aside + ways @ direction).max())
+
+
+def spread(points: Vector) -> Vector:
+    """Two corners (2, 3) of where most points are, none (0, 3) where there are no points."""
+    return np.percentile(points, [5, 95], axis=0) if len(points) else points
 
 
 def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:

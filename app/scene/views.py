@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.estimates import Pair
-from app.scene.first_view import View, corners, first_view
+from app.scene.first_view import View, corners, first_view, spread
+from app.scene.settings import ViewSettings
 from estimator import Label
 
 THREE_D, TOP, FRONT, ROBOT, FIT = "3D", "Top", "Front", "Robot", "Fit"
@@ -14,6 +15,7 @@ VIEWS = (THREE_D, TOP, FRONT, ROBOT, FIT)
 """At a slant; from above; from before the robot; from the robot's skin; everything."""
 
 _MARGIN = 1.12
+_ARROW_SCALE = ViewSettings().arrow_scale
 _LEAN = 1e-3  # how far a view from above leans back, so that it is known which way is up in it
 
 
@@ -58,16 +60,21 @@ def named_view(
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     axes = poses[:, :3, 2] @ R_drawing_fixed.T
     slanted = first_view(
-        pair.target.points, poses, R_drawing_fixed, film.fov, film.aspect, _moving(pair)
+        pair.target.points,
+        poses,
+        R_drawing_fixed,
+        film.fov,
+        film.aspect,
+        _arrows(pair),
     )
-    moving = _moving(pair) @ R_drawing_fixed.T
+    moving, tips = (ends @ R_drawing_fixed.T for ends in _arrows(pair))
     if name == ROBOT and len(sensors):
         # Points come from sensors whose pose is known.
         owner = (np.cumsum(placed) - 1)[pair.target.sensor]
         return _from_robot(points, owner, sensors, axes, moving)
     if name == FIT:
         return _everything(points, sensors, film, before or slanted)
-    box = np.vstack([*corners(points, sensors), *_spread(moving)])
+    box = np.vstack([*corners(points, sensors), *spread(moving), *spread(tips)])
     low, high = box.min(axis=0), box.max(axis=0)
     centre, (x, y, z) = (low + high) / 2, high - low
     if name == TOP:
@@ -79,16 +86,13 @@ def named_view(
     return slanted
 
 
-def _moving(pair: Pair) -> NDArray[np.float64]:
-    """The source points (M, 3) that were found to move."""
+def _arrows(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The source points (M, 3) that were found to move, and where their arrows end at first."""
     if pair.source is None or pair.flow is None:
-        return np.zeros((0, 3))
-    return pair.source.points[pair.flow.label == Label.MOVING]
-
-
-def _spread(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Two corners of where most points are, none where there are no points."""
-    return np.percentile(points, [5, 95], axis=0) if len(points) else points
+        return np.zeros((0, 3)), np.zeros((0, 3))
+    moving = pair.flow.label == Label.MOVING
+    points = pair.source.points[moving]
+    return points, points + _ARROW_SCALE * pair.flow.velocity[moving]
 
 
 def _from_robot(

@@ -52,6 +52,7 @@ class FakeClient:
         )
         self.local_storage = storage or FakeStorage()
         self.notifications: list[str] = []
+        self.removed: list[str] = []
         self.downloads: list[tuple[str, bytes]] = []
         self.render: Any = np.zeros((60, 80, 4), dtype=np.uint8)
         self.sent: list[Any] = []
@@ -89,7 +90,7 @@ class FakeClient:
 
     def add_notification(self, title, body, **_):
         self.notifications.append(body)
-        return SimpleNamespace(body=body, remove=lambda: None)
+        return SimpleNamespace(body=body, remove=lambda: self.removed.append(body))
 
     def send_file_download(self, name, content, save_immediately=False):
         self.downloads.append((name, content))

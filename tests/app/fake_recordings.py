@@ -29,6 +29,7 @@ class FakeRecording:
         self.stamps = 100 + PERIOD * np.arange(FRAMES)
         self.provenance = None
         self.simulated = False
+        self.truth_frame = None
         self.fixed_frame = robot.base if robot else "world"
         self.warnings = ()
         self.has_truth = True

@@ -99,6 +99,7 @@ def test_a_new_preset_is_no_replaced_one_and_one_without_a_name_is_none(session,
     client.change("Name", "mine")
     client.press_group("Save")
     until(shows(client, "Preset", "mine"))
+    until(lambda: "mine holds these parameters now." in client.notifications)
     assert not any("was there already" in n for n in client.notifications)
 
 

@@ -48,14 +48,17 @@ def test_jumps_to_where_something_begins_to_move(session, client):
     client.change("Motion", "Previous")
     until(lambda: "Nothing begins to move before this frame." in client.notifications)
     assert client.control("Frame").value == 12
+    client.change("Motion", "Previous")
+    until(lambda: client.notifications.count("Nothing begins to move before this frame.") == 2)
+    assert client.removed == ["Nothing begins to move before this frame."]
 
 
 def test_commands_go_to_the_ends_and_step(session, client):
     client.trigger("First frame")
     until(at(client, 0))
-    client.trigger("Ten frames on")
+    client.trigger("Ten frames on (Shift →)")
     until(at(client, 10))
-    client.trigger("One frame back")
+    client.trigger("Previous frame")
     until(at(client, 9))
     client.trigger("Last frame")
     until(at(client, FRAMES - 1))

@@ -46,8 +46,8 @@ def test_stretches(flags, expected):
     assert stretches(flags) == expected
 
 
-def test_a_gap_is_more_than_one_and_a_half_median_intervals():
-    assert gaps(np.array([0.0, 1.0, 2.0, 3.4, 4.4, 6.0, 7.0])) == (5,)
+def test_a_gap_is_where_a_frame_is_missing_and_no_jitter():
+    assert gaps(np.array([0.0, 1.0, 2.0, 3.7, 4.7, 6.6, 7.6])) == (5,)
     assert gaps(np.array([3.0])) == ()
 
 
@@ -133,6 +133,17 @@ def test_the_strip_has_the_colours_of_the_scene():
         drawn = strip(timeline, Playback(0, 39), colours, "")
         used = {colours.flow, colours.unassigned, colours.category(4)}
         assert set(re.findall(r"#[0-9a-f]{6}", drawn)) == {css(colour) for colour in used}
+
+
+def test_gaps_hide_nothing_of_what_moves():
+    drawn = strip(Timeline(40, (7, 8), (), ((5, 9),)), Playback(0, 39), COLOURS, "")
+    bar = r'y="(\d+)" width="([\d.]+)" height="(\d+)" fill="%s"'
+    marks = re.findall(bar % css(COLOURS.category(4)), drawn)
+    ((top, _, _),) = re.findall(bar % css(COLOURS.flow), drawn)
+    assert len(marks) == 2
+    for y, width, height in marks:
+        assert int(y) + int(height) < int(top)
+        assert float(width) < 5
 
 
 def test_the_strip_of_a_single_frame_is_drawn():

@@ -6,7 +6,7 @@ from viser._messages import RunJavascriptMessage
 
 from app.colours import PICKED, css
 from app.estimates import Estimates
-from app.panels.cluster_story import cluster_table, story
+from app.panels.cluster_story import cluster_table, fills, story
 from app.panels.explain import ExplainPanel, PickAt, PickCluster
 from app.panels.histograms import Histogram, upper_limit
 from app.scene.settings import ViewSettings
@@ -29,6 +29,14 @@ def clusters():
 def moving(clusters):
     (cluster,) = [c for c in clusters if c.label == Label.MOVING]
     return cluster
+
+
+def test_labels_have_the_colours_of_the_scene():
+    for colours in (COLOURS, replace(ViewSettings(), dark=True).palette):
+        filled = fills(colours)
+        assert css(colours.flow) in filled[Label.MOVING]
+        assert css(colours.stationary) in filled[Label.STATIONARY]
+        assert css(colours.unassigned) in filled[Label.UNASSIGNED]
 
 
 def test_the_story_says_every_margin_and_the_reason(moving):

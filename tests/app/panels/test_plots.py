@@ -97,9 +97,39 @@ def test_without_truth_the_plots_that_need_none_stay_and_it_says_so(client):
     fake.pair_truth = lambda *_: None
     bench = Bench(client, fake)
     assert [plot.visible for plot in bench.plots] == [True, True, False, False, False]
+    assert labelled(bench) == [False, True, False, False, False]
     bench.fill()
     assert "No truth in this recording" in client.text()
+    assert ">est.<" in client.text()
+    assert ">true<" not in client.text()
     assert (bench.plots[0].data[1][8:] == 100).all()
+
+
+def labelled(bench):
+    return ["values" not in plot.axes[0] for plot in bench.plots]
+
+
+def test_the_last_plot_has_the_times_below_it(client):
+    bench = Bench(client)
+    assert labelled(bench) == [False, False, False, False, True]
+    assert len({plot.height for plot in bench.plots[:-1]}) == 1
+    assert bench.plots[-1].height > bench.plots[0].height
+    assert ">true<" in client.text()
+
+
+def test_the_first_and_the_last_numbers_build_every_plot_anew(client):
+    bench = Bench(client)
+    asked: Any = bench.panel._asked
+    survey = Survey(bench.opened.recording, Parameters())
+
+    def built():
+        client.take_sent()
+        bench.panel.plot(asked, survey)
+        return sum("scales" in getattr(m, "updates", {}) for m in client.take_sent())
+
+    assert [built(), built()] == [len(bench.plots), 0]
+    survey.done[:] = True
+    assert built() == len(bench.plots)
 
 
 def test_a_time_leads_to_the_nearest_frame(client):

@@ -70,7 +70,7 @@ def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
 @pytest.mark.parametrize(
     ("parameters", "why"),
     [
-        (Parameters(delta=0.5), "displacements reach 0.080 m, below δ"),
+        (Parameters(delta=0.5), "displacements reach 80 mm, below δ"),
         (Parameters(gamma=1.0), "fitness reaches 1.00, not above γ"),
         (Parameters(n_min=400), "every cluster is below N_min; the largest has 100 points"),
         (
@@ -82,6 +82,15 @@ def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
 def test_why_nothing_moves_is_said_in_words(parameters, why):
     pair = Estimates().estimated(fake_opened(), 20, parameters)
     assert note_on(pair, parameters) == f"Nothing moves: {why}."
+
+
+def test_without_truth_it_is_said_how_there_would_be_some():
+    fake = fake_recording()
+    fake.pair_truth = lambda *_: None
+    pair = Estimates().estimated(fake_opened(fake), 20, Parameters())
+    assert "with --truth-frame" in note_on(pair, Parameters())
+    named = note_on(pair, Parameters(), "target")
+    assert named == "No truth here: the truth frame has no pose over this pair."
 
 
 def test_simulated_data_are_called_so(client):

@@ -6,6 +6,7 @@ import pytest
 from app.estimates import Estimates
 from app.scene.first_view import View
 from app.scene.lens import Lens
+from app.scene.settings import ViewSettings
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Film, named_view
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
@@ -39,6 +40,17 @@ def test_what_moves_is_in_the_picture(pair, name, aspect):
     view = named_view(name, pair, np.eye(3), film)
     moving = pair.source.points[pair.truly_moving]
     assert in_picture(view, moving, film).mean() > 0.9
+
+
+@pytest.mark.parametrize("name", [TOP, FRONT, THREE_D])
+def test_the_ends_of_arrows_are_in_the_picture(pair, name):
+    slow, fast = pair, replace(pair, flow=replace(pair.flow, velocity=40 * pair.flow.velocity))
+    moving = pair.source.points[pair.flow.moving]
+    tips = moving + ViewSettings().arrow_scale * fast.flow.velocity[pair.flow.moving]
+    assert in_picture(named_view(name, slow, np.eye(3), FILM), tips).mean() < 0.1
+    view = named_view(name, fast, np.eye(3), FILM)
+    assert in_picture(view, tips).mean() > 0.9
+    assert in_picture(view, moving).mean() > 0.9
 
 
 def test_top_looks_down_with_y_up_in_the_picture(pair):
