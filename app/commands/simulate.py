@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import InputError
+from app.simulation_flags import MAX_SPEED, check_simulation
 from recordings import RecordingError, open_recording
 from recordings.simulation import (
     IMPERFECTIONS,
@@ -21,7 +22,6 @@ from robot_assets import load_rig, load_robot
 _ENDING = ".mcap"
 _ALL, _MORE = "all", "more"
 _ONE_TRIAL = 1
-_MAX_SPEED = 2.0
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
@@ -64,7 +64,7 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         type=float,
         metavar="M/S",
         help=(
-            f"speeds of what moves, up to {_MAX_SPEED:g} m/s; where nothing does it is 0 all the "
+            f"speeds of what moves, up to {MAX_SPEED:g} m/s; where nothing does it is 0 all the "
             f"same (default: into a folder those of each scenario, which are {_speeds()}; into a "
             f"file the one in the middle)"
         ),
@@ -104,7 +104,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
     single = options.out.suffix == _ENDING and not options.out.is_dir()
     trials = options.trial or ([_ONE_TRIAL] if single else TRIALS)
-    _check(options.speed or [], trials, options.seed)
+    check_simulation(options.speed or [], trials, options.seed)
     wanted = [
         (scenario, speed, trial)
         for scenario in _scenarios(options.scenarios)
@@ -175,19 +175,6 @@ def _shown(speed: float) -> str:
     """A speed with two decimals, or with as many as it needs to be told apart."""
     two = f"{speed:.2f}"
     return two if float(two) == speed else f"{speed:g}"
-
-
-def _check(speeds: Iterable[float], trials: Iterable[int], seed: int) -> None:
-    for speed in speeds:
-        if not 0 < speed <= _MAX_SPEED:
-            raise InputError(
-                f"--speed must be above 0 and at most {_MAX_SPEED:g} m/s, got {speed:g}."
-            )
-    for trial in trials:
-        if trial < 1:
-            raise InputError(f"--trial must be 1 or more, got {trial}.")
-    if seed < 0:
-        raise InputError(f"--seed must be 0 or more, got {seed}.")
 
 
 def _check_replaceable(path: Path) -> None:

@@ -1,7 +1,6 @@
 """`tofscope study`: the paper's tables and its sweep of n, simulated or on recordings."""
 
 import argparse
-import os
 import shlex
 import signal
 import sys
@@ -15,8 +14,11 @@ from typing import Any, TypeVar
 from app.errors import InputError
 from app.parameter_flags import add_parameter_flags, parameters_from
 from app.recording_flags import add_recording_flags, opening_from, recording_paths
+from app.simulation_flags import check_simulation
+from app.study.conditions import truth_frame_text
 from app.study.execution import outcomes
-from app.study.plan import ABLATION_SPEED, METHODS, SWEEP, Plan
+from app.study.flags import ALL, MORE, add_execution_flags, add_source_flags
+from app.study.plan import METHODS, SWEEP, Plan
 from app.study.progress import Progress, duration
 from app.study.report import PAGE, Study, write_report
 from app.study.software import software_digest
@@ -26,14 +28,12 @@ from app.study.work import Recorded, Work
 from estimator import method_names
 from recordings.simulation import (
     IMPERFECTIONS,
-    NOISE_MODELS,
     PAPER_SCENARIOS,
     SCENARIOS,
     TRIALS,
 )
 
 _T = TypeVar("_T")
-_ALL, _MORE = "all", "more"
 _SHOWN = ("table_1", "table_2")
 _OF_SIMULATION = ("scenario", "speed", "trial", "seed", "noise", "imperfections", "ablation")
 
@@ -71,93 +71,11 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         metavar="N",
         help=f"values of n that are tried (default {SWEEP[0]} to {SWEEP[-1]}; none: no sweep)",
     )
-    _add_sources(parser)
-    _add_execution(parser)
+    add_source_flags(parser)
+    add_execution_flags(parser)
     add_recording_flags(parser)
     add_parameter_flags(parser, leave_out=("method",))
     parser.set_defaults(run=run)
-
-
-def _add_sources(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("what is studied")
-    group.add_argument(
-        "--recordings",
-        nargs="+",
-        type=Path,
-        metavar="PATH",
-        help=(
-            "recordings or folders that are taken instead of simulated ones; those that say a "
-            "scenario of the paper, speed and trial enter its tables, every one gets its own line"
-        ),
-    )
-    # Only flags that are given are set: they make no sense beside --recordings.
-    unset = argparse.SUPPRESS
-    group.add_argument(
-        "--scenario",
-        nargs="+",
-        choices=[*SCENARIOS, _ALL, _MORE],
-        default=unset,
-        metavar="SCENARIO",
-        help=(
-            f"scenarios to simulate, see tofscope simulate: {', '.join(SCENARIOS)}; {_ALL} (the "
-            f"default): the paper's {', '.join(PAPER_SCENARIOS)}; {_MORE}: the others"
-        ),
-    )
-    group.add_argument(
-        "--speed",
-        nargs="+",
-        type=float,
-        default=unset,
-        metavar="M/S",
-        help="default each scenario's",
-    )
-    group.add_argument(
-        "--trial", nargs="+", type=int, default=unset, metavar="NUMBER", help="default 1 to 5"
-    )
-    group.add_argument(
-        "--seed", type=int, default=unset, help="seed of all random numbers (default 0)"
-    )
-    group.add_argument(
-        "--noise",
-        choices=list(NOISE_MODELS),
-        default=unset,
-        help="the sensors' errors, see tofscope simulate (default paper)",
-    )
-    group.add_argument(
-        "--imperfections",
-        nargs="+",
-        choices=list(IMPERFECTIONS),
-        default=unset,
-        help="what else is wrong, see tofscope simulate (default nothing)",
-    )
-    group.add_argument(
-        "--ablation",
-        action="store_true",
-        default=unset,
-        help=(
-            "a further table: what every noise model and every imperfection does to the errors, "
-            f"at {ABLATION_SPEED:g} m/s"
-        ),
-    )
-
-
-def _add_execution(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("where it runs")
-    group.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="processes on this machine (default all cores)",
-    )
-    group.add_argument(
-        "--dask",
-        metavar="ADDRESS",
-        help=(
-            "run on the workers of a Dask scheduler instead, such as tcp://host:8786; they need "
-            "the same Tofscope and see the same paths (needs tofscope[dask])"
-        ),
-    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -187,7 +105,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.jobs < 1:
         raise InputError(f"--jobs must be 1 or more, got {options.jobs}.")
     store = Store(options.out / "results", software_digest())
-    works = plan.works()
+    works, twice = _once_each(store, plan.works())
     left = [work for work in map(store.missing, works) if work]
     if len(left) < len(works):
         print(f"{len(works) - len(left)} of {len(works)} recordings are known from before.")
@@ -195,6 +113,7 @@ def _run(options: argparse.Namespace) -> int:
     if failures is None:
         return 130
     finished = [outcome for work in works if (outcome := store.finished(work))]
+    failures += twice
     failures += [
         f"{outcome.source.name} has no truth, so there is nothing to compare with."
         for outcome in finished
@@ -209,6 +128,8 @@ def _run(options: argparse.Namespace) -> int:
     for table in write_report(study, options.out):
         if table.name in _SHOWN or (table.name == "recordings" and plan.recordings):
             print(as_plain(table))
+    if caveat := truth_frame_text(plan).strip():
+        print(caveat)
     making = sum(outcome.seconds for outcome in finished)
     estimating = sum(result.seconds for outcome in finished for result in outcome.results)
     print(
@@ -218,6 +139,19 @@ def _run(options: argparse.Namespace) -> int:
     )
     print(f"Read first: {options.out / PAGE}")
     return 0
+
+
+def _once_each(store: Store, works: list[Work]) -> tuple[list[Work], list[str]]:
+    """The works without those whose recording is another's copy, and sentences on those."""
+    first: dict[str, Work] = {}
+    twice: list[str] = []
+    for work in works:
+        there = first.setdefault(store.digest(work.source), work)
+        if there is not work:
+            twice.append(
+                f"{work.source.name} has the same content as {there.source.name}, and counts once."
+            )
+    return list(first.values()), twice
 
 
 def _execute(
@@ -283,10 +217,10 @@ def _plan(options: argparse.Namespace) -> Plan:
                 "without --recordings."
             )
     wanted = {name: getattr(options, name) for name in given}
-    _check(wanted)
+    check_simulation(wanted.get("speed", ()), wanted.get("trial", ()), wanted.get("seed", 0))
     return replace(
         plan,
-        scenarios=_scenarios(wanted.get("scenario", [_ALL])),
+        scenarios=_scenarios(wanted.get("scenario", [ALL])),
         speeds=_once(wanted["speed"]) if "speed" in wanted else None,
         trials=_once(wanted.get("trial", TRIALS)),
         seed=wanted.get("seed", 0),
@@ -297,19 +231,8 @@ def _plan(options: argparse.Namespace) -> Plan:
 
 
 def _scenarios(names: Iterable[str]) -> tuple[str, ...]:
-    groups = {_ALL: PAPER_SCENARIOS, _MORE: [n for n in SCENARIOS if n not in PAPER_SCENARIOS]}
+    groups = {ALL: PAPER_SCENARIOS, MORE: [n for n in SCENARIOS if n not in PAPER_SCENARIOS]}
     return _once(member for name in names for member in groups.get(name, [name]))
-
-
-def _check(wanted: dict[str, Any]) -> None:
-    for speed in wanted.get("speed", ()):
-        if not speed > 0:
-            raise InputError(f"--speed must be above 0 m/s, got {speed:g}.")
-    for trial in wanted.get("trial", ()):
-        if trial < 1:
-            raise InputError(f"--trial must be 1 or more, got {trial}.")
-    if (seed := wanted.get("seed", 0)) < 0:
-        raise InputError(f"--seed must be 0 or more, got {seed}.")
 
 
 def _once(values: Iterable[_T]) -> tuple[_T, ...]:

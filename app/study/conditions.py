@@ -33,6 +33,16 @@ def opening_text(plan: Plan) -> str:
     return " ".join(said)
 
 
+def truth_frame_text(plan: Plan) -> str:
+    """What a table's note adds where the truth is the motion of a frame, "" where it is not."""
+    if not (plan.recordings and (frame := plan.recordings[0].truth_frame)):
+        return ""
+    return (
+        f" Every point is taken to move with the frame {frame}: precision is 1 by construction "
+        "(less only where that rests), and false flow looks only at moments of rest."
+    )
+
+
 def parameters_text(plan: Plan) -> str:
     """Every parameter with its value."""
     return ", ".join(
@@ -51,6 +61,26 @@ def simulator_texts(plan: Plan) -> list[str]:
         f"Noise model {plan.noise}: {NOISE_MODELS[plan.noise].text}.",
         *(f"Imperfection {name}: {IMPERFECTIONS[name].text}." for name in plan.imperfections),
     ]
+
+
+def study_command(plan: Plan) -> str:
+    """The command that evaluates them."""
+    flags = []
+    for field in fields(Parameters):
+        value = getattr(plan.parameters, field.name)
+        name = field.name.replace("_", "-")
+        if field.name == "method" or value == field.default:
+            continue
+        if isinstance(value, bool):
+            flags.append(f"--{name}" if value else f"--no-{name}")
+        else:
+            flags += [f"--{name}", str(value)]
+    return shlex.join(
+        [
+            *("tofscope", "study", "--recordings", "recordings", "--method", *plan.methods),
+            *("--sweep", *map(str, plan.sweep), *flags, "--out", "FOLDER"),
+        ]
+    )
 
 
 def simulate_command(plan: Plan) -> str:

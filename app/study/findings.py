@@ -5,9 +5,17 @@ from collections import Counter
 from collections.abc import Iterator
 from statistics import median
 
-from app.study.paper import LABELS, experiment_label, method_label, paper_numbers
+from app.study.paper import (
+    FRAME,
+    LABELS,
+    Printed,
+    experiment_label,
+    method_label,
+    paper_numbers,
+)
 from app.study.plan import Plan
-from app.study.rows import Row, cell, mean, mean_of, speeds_of, values
+from app.study.rows import Row, cell, mean, mean_of, speeds_of, std, values
+from app.study.words import span
 from app.study.work import SWEPT_SCENARIO
 from recordings.simulation import SPEEDS
 
@@ -21,13 +29,15 @@ _PAPER_SMALL_N = (
     "they moved. Noise that differs from zone to zone averages out over a cluster and cannot do "
     "that; errors that many zones share can."
 )
-_FRAME = 1 / 15  # seconds, the paper's
+_TREND = 1.25
+"""Errors rise or fall over the speeds where the last is this many times the first, or less."""
 
 
 def findings(plan: Plan, rows: list[Row]) -> list[str]:
     """Sentences, in the order of the tables."""
     return [
         *_missing(plan, rows),
+        *_same_cell(plan, rows),
         *_against_paper(plan, rows),
         *_outlying(plan, rows),
         *_small_n(plan, rows),
@@ -50,6 +60,20 @@ def _missing(plan: Plan, rows: list[Row]) -> Iterator[str]:
             yield f"{label}: there are no recordings at {', '.join(absent)} m/s here."
 
 
+def _same_cell(plan: Plan, rows: list[Row]) -> Iterator[str]:
+    """Recordings that say the same scenario, speed and trial."""
+    names: dict[tuple[str, float, int], dict[str, None]] = {}
+    for row in rows if plan.recordings else ():
+        if row.scenario is not None and row.speed is not None and row.trial is not None:
+            names.setdefault((row.scenario, row.speed, row.trial), {})[row.source.name] = None
+    for (scenario, speed, trial), found in names.items():
+        if len(found) > 1:
+            yield (
+                f"{', '.join(found)} all say {scenario}, {speed:.2f} m/s, trial {trial}, and "
+                "differ: each counts as a trial."
+            )
+
+
 def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
     """Means over the speeds that both have."""
     printed = paper_numbers().rows
@@ -66,7 +90,8 @@ def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
         }
         if not cells:
             continue
-        angle = mean_of([mean(here, "angle_deg") or 0.0 for here in cells.values()]) or 0.0
+        angles = [mean(here, "angle_deg") or 0.0 for here in cells.values()]
+        angle = mean_of(angles) or 0.0
         error = mean_of([mean(here, "velocity_error") or 0.0 for here in cells.values()]) or 0.0
         theirs = [printed[scenario, method, speed] for speed in cells]
         paper_angle = mean_of([p.angle_mean for p in theirs]) or 0.0
@@ -82,15 +107,51 @@ def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
                 if angle > _BASELINE_ANGLE
                 else ", and so does not fail here as it does there."
             )
+            yield from _spread(label, [std(here, "angle_deg") for here in cells.values()], theirs)
             continue
         ratios = angle / paper_angle, error / paper_error
         yield f"{said}, of which these are {ratios[0]:.2f} and {ratios[1]:.2f} times: " + _judged(
             ratios, simulated=plan.recordings is None
         )
+        yield from _trend(label, angles, theirs)
+
+
+def _spread(label: str, ours: list[float | None], theirs: list[Printed]) -> Iterator[str]:
+    """How trials differ."""
+    found = [deviation for deviation in ours if deviation is not None]
+    if not found:
+        return
+    printed = [p.angle_std for p in theirs]
+    smaller = max(found) < min(printed)
+    yield (
+        f"{label}, std of the angle deviation over trials: {span(found, '.1f')} deg; the paper "
+        f"has {span(printed, '.1f')} deg"
+        + (". Trials differ less here than there; why is not known." if smaller else ".")
+    )
+
+
+def _trend(label: str, ours: list[float], theirs: list[Printed]) -> Iterator[str]:
+    """Whether errors go with the speed as the paper's do, where those do."""
+    printed = [p.angle_mean for p in theirs]
+    if len(ours) < 3 or (there := _course(printed)) == "stays":
+        return
+    here = _course(ours)
+    yield (
+        f"{label}, angle deviation from the slowest to the fastest: the paper's {there} "
+        f"({', '.join(f'{a:.1f}' for a in printed)} deg); here it "
+        f"{here + ', too' if here == there else here} ({', '.join(f'{a:.1f}' for a in ours)} deg)"
+        + ("." if here == there else ", and why it differs is not known.")
+    )
+
+
+def _course(found: list[float]) -> str:
+    if found[-1] > _TREND * found[0]:
+        return "rises"
+    return "falls" if found[0] > _TREND * found[-1] else "stays"
 
 
 def _outlying(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Trials that are far from the others of their cell, and decide its mean."""
+    """Trials far from the others of their cell, which decide its mean, and what went wrong."""
     printed = paper_numbers().rows
     for scenario, method, speed in printed:
         if method not in plan.methods or method == "baseline":
@@ -102,13 +163,18 @@ def _outlying(plan: Plan, rows: list[Row]) -> Iterator[str]:
         middle, angle = median(errors), median(values(here, "angle_deg"))
         for row in here:
             error = row.metrics.get("velocity_error")
-            if error is not None and error > _FAR * middle:
+            if error is None:
+                continue
+            why = f" {row.why}" if row.why else ""
+            label = f"{experiment_label(scenario, method)} at {speed:.2f} m/s: trial {row.trial}"
+            has = f"{row.metrics.get('angle_deg') or 0.0:.1f} deg and {error:.3f} m/s"
+            if error > _FAR * middle:
                 yield (
-                    f"{experiment_label(scenario, method)} at {speed:.2f} m/s: trial {row.trial} "
-                    f"alone has {row.metrics.get('angle_deg') or 0.0:.1f} deg and {error:.3f} m/s, "
-                    f"where the median of the trials is {angle:.1f} deg and {middle:.3f} m/s; it "
-                    "decides mean and std of its cell."
+                    f"{label} alone has {has}, where the median of the trials is {angle:.1f} deg "
+                    f"and {middle:.3f} m/s; it decides mean and std of its cell.{why}"
                 )
+            elif why:
+                yield f"{label} has {has}.{why}"
 
 
 def _over(speeds: int) -> str:
@@ -124,9 +190,8 @@ def _judged(ratios: tuple[float, float], *, simulated: bool) -> str:
     if not simulated:
         return f"{within}, and clearly smaller."
     return (
-        f"{within}, and clearly smaller, most likely because the simulated scene is simpler than a "
-        "laboratory: where the sensors are and what is true is known exactly, and nothing moves by "
-        "accident."
+        f"{within}, and clearly smaller. Why is not known: these are simulated, and nothing here "
+        "tests in what the simulation is easier than the laboratory."
     )
 
 
@@ -145,17 +210,16 @@ def _small_n(plan: Plan, rows: list[Row]) -> Iterator[str]:
             continue
         best = max(coverage, key=lambda n: coverage[n])
         first = min(coverage)
-        said = (
-            f"{method_label(method)}, coverage over n: {coverage[best]:.2f} at n = {best}, "
-            f"{coverage[first]:.2f} at n = {first}"
-        )
+        said = f"{method_label(method)}, coverage over n: {coverage[best]:.2f} at n = {best}"
+        if first != best:
+            said += f", {coverage[first]:.2f} at n = {first}"
         if coverage[first] > 0.9 * coverage[best]:
             yield f"{said}; detection does not fall for small n."
         elif method == "paper":
-            slow, fast = (speed * first * _FRAME for speed in (speeds[0], speeds[-1]))
+            ways = span([speed * first * FRAME for speed in speeds], ".3f")
             yield (
                 f"{said}. In {first} frame{'s' if first > 1 else ''} of 1/15 s the mannequin goes "
-                f"{slow:.3f} to {fast:.3f} m, and what moves by less than delta = {delta:g} m "
+                f"{ways} m, and what moves by less than delta = {delta:g} m "
                 f"counts as stationary, so detection falls for small n.{_PAPER_SMALL_N}"
             )
         else:
@@ -183,7 +247,7 @@ def _not_computed(plan: Plan, rows: list[Row]) -> Iterator[str]:
             if not pairs:
                 yield f"{said}: the object does not move for {n} frames, and no pair counts."
                 continue
-            far = ", ".join(f"{s * n * _FRAME:.2f}" for s in empty)
+            far = ", ".join(f"{s * n * FRAME:.2f}" for s in empty)
             reasons = [row.why.partition(": ")[2] for row in here if row.why]
             why = f" What became of it, for example: {_commonest(reasons)}" if reasons else ""
             yield (
@@ -213,12 +277,13 @@ def _where_paper_has_nothing(plan: Plan, rows: list[Row]) -> Iterator[str]:
     }
     falling = ", ".join(f"{c:.2f} at n = {m}" for m, c in coverage.items() if m > 5 and c)
     reach = plan.parameters.max_correspondence_distance
-    reasons = [row.why.partition(": ")[2] for row in here if row.why]
+    silent = [row for row in here if not row.metrics.get("points_with_flow")]
+    reasons = [row.why.partition(": ")[2] for row in silent if row.why]
     yield (
         f"At n = {n} and {speed:.2f} m/s the paper could compute nothing: the two clouds of the "
         "object are too far apart to share clusters. Here "
         f"{len(found)} of {len(here)} trials give some flow; coverage at this speed is "
-        f"{falling or 'zero'}. Between the clouds the object goes {speed * n * _FRAME:.2f} m, and "
+        f"{falling or 'zero'}. Between the clouds the object goes {speed * n * FRAME:.2f} m, and "
         f"ICP pairs points within {reach:g} m, so that flow remains only where one part of the "
         "object comes to lie near where another was."
         + (f" The trials without any say: {_commonest(reasons)}" if reasons else "")

@@ -4,11 +4,14 @@ from collections.abc import Iterable, Iterator
 from itertools import product
 
 from app.evaluation import COLUMNS
-from app.study.paper import experiment_label
+from app.study.conditions import truth_frame_text
+from app.study.paper import FRAME, experiment_label
 from app.study.plan import Plan
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
+from app.study.words import span
 from app.study.work import SWEPT_SCENARIO, Simulated
+from estimator import MOVING_SPEED
 from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
 
 _COUNTS = ("pairs", "points_with_flow")
@@ -87,14 +90,19 @@ def metrics_table(plan: Plan, rows: list[Row]) -> Table:
                 found = values(here, key)
                 line[key] = round(sum(found)) if key in _COUNTS and found else mean_of(found)
             lines.append(line)
+    speeds = {speed for scenario in scenarios for speed in speeds_of(rows, scenario) if speed}
+    ways = [plan.parameters.n * FRAME * speed for speed in speeds]
+    these = f" than the {span(ways, '.2f')} m of these pairs" if ways else ""
     return Table(
         "metrics",
         "The field's metrics",
         "Means over trials; pairs and points are sums. EPE3D, AccS, AccR and outliers compare "
         "every source point with its own truth over a pair; their thresholds (0.05, 0.10, 0.30 m) "
-        "were made for longer ways than the 0.08 to 0.16 m of these pairs, so that a point at "
-        "rest, or without a flow, often counts as accurate. Read them with coverage and precision. "
-        "False flow: points at rest that got a flow, of all at rest, over all pairs.",
+        f"were made for longer ways{these}, so that a point at rest, or without a flow, often "
+        "counts as accurate. Read them with coverage and precision. Dynamic IoU: points that truly "
+        f"move, faster than {MOVING_SPEED:g} m/s, and got a flow, of all that do or did either. "
+        "False flow: points at rest that got a flow, of all at rest, over all pairs."
+        f"{truth_frame_text(plan)}",
         (
             Column("experiment", "Experiment"),
             Column("speed", "Speed (m/s)", ".2f"),
@@ -203,5 +211,8 @@ def recordings_table(plan: Plan, rows: list[Row]) -> Table:
         for row in rows
         if row.parameters.n == plan.parameters.n
     ]
-    note = "One line per recording and method; means over all its points and pairs."
+    note = (
+        "One line per recording and method; means over all its points and pairs."
+        f"{truth_frame_text(plan)}"
+    )
     return Table("recordings", "Every recording", note, columns, tuple(lines))

@@ -11,6 +11,8 @@ LABELS = {
     "robot_moving": "Robot with ToF moving",
 }
 """{scenario: how the paper's tables call it}."""
+FRAME = 1 / 15
+"""Seconds from frame to frame."""
 METHOD_LABELS = {"paper": "Algorithm 1"}
 """{method: how tables call it}; any other is called by its name."""
 

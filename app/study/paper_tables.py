@@ -2,6 +2,7 @@
 
 from itertools import product
 
+from app.study.conditions import truth_frame_text
 from app.study.paper import experiment_label, paper_numbers
 from app.study.plan import Plan
 from app.study.rows import Row, Value, cell, mean, speeds_of, std, values
@@ -23,12 +24,14 @@ _COLUMNS = (
     Column("coverage", "Coverage", ".2f"),
     Column("precision", "Precision", ".2f"),
     Column("trials", "Trials"),
+    Column("pairs", "Pairs", "d"),
 )
 _NOTE = (
     "Each recording gives a mean over all points with a flow and over time; mean and std (sample) "
     "are over recordings, the trials. Beside each stands the paper's. Coverage: truly moving "
     "points that got a flow, of all that truly move. Precision: points with a flow that truly "
-    "move, of all with a flow. Trials: recordings in which a point got a flow, of all there are."
+    "move, of all with a flow. Trials: recordings in which a point got a flow, of all there are. "
+    "Pairs: of frames at both of which the object moves, in all of the recordings."
 )
 
 
@@ -55,7 +58,7 @@ def _table(plan: Plan, rows: list[Row], name: str, title: str, scenarios: tuple[
         for scenario, method in product(scenarios, plan.methods)
         for speed in sorted({*SPEEDS, *speeds_of(rows, scenario)})
     ]
-    return Table(name, title, _NOTE, _COLUMNS, tuple(lines))
+    return Table(name, title, _NOTE + truth_frame_text(plan), _COLUMNS, tuple(lines))
 
 
 def _row(rows: list[Row], scenario: str, method: str, speed: float, n: int) -> dict[str, Value]:
@@ -66,6 +69,7 @@ def _row(rows: list[Row], scenario: str, method: str, speed: float, n: int) -> d
         "coverage": mean(here, "coverage"),
         "precision": mean(here, "precision"),
         "trials": f"{len(values(here, 'velocity_error'))}/{len(here)}" if here else None,
+        "pairs": round(sum(values(here, "pairs"))) if here else None,
     }
     printed = paper_numbers().rows.get((scenario, method, speed))
     for key, metric in (("angle", "angle_deg"), ("velocity", "velocity_error")):

@@ -15,6 +15,7 @@ from app.study.conditions import (
     parameters_text,
     simulate_command,
     simulator_texts,
+    study_command,
 )
 from app.study.figure import sweep_figure
 from app.study.findings import findings
@@ -38,6 +39,12 @@ from app.study.work import Outcome
 
 PAGE = "index.html"
 _TABLES = "tables"
+_NAMES = ("table_1", "table_2", "scenarios", "metrics", "sweep", "ablation", "recordings")
+_KNOWN = {f"{_TABLES}/{name}.{ending}" for name in _NAMES for ending in ("csv", "md", "tex")} | {
+    "sweep.png",
+    "sweep.pdf",
+}
+"""All that a study may write beside the page."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +123,9 @@ def write_report(study: Study, folder: Path) -> list[Table]:
         (folder / _TABLES).mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             (folder / name).write_bytes(content)
+        # What another study left here would stand beside a page that does not speak of it.
+        for name in _KNOWN - files.keys():
+            (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise InputError(f"{error.filename} cannot be written: {error.strerror}.") from error
     return tables
@@ -213,9 +223,7 @@ def _last(study: Study) -> page.Section:
     if plan.recordings is None:
         blocks.append(page.paragraph("The recordings, as files, are made by"))
         blocks.append(page.command(simulate_command(plan)))
-        methods = " ".join(plan.methods)
-        again = f"tofscope study --recordings recordings --method {methods} --out FOLDER"
-        blocks.append(page.paragraph("and evaluated, with the parameters above, by"))
-        blocks.append(page.command(again))
+        blocks.append(page.paragraph("and evaluated by"))
+        blocks.append(page.command(study_command(plan)))
     blocks.append(page.links([f"{_TABLES}/tables.json"]))
     return page.Section("How to make it again", blocks)

@@ -23,7 +23,7 @@ class Row:
         trial: None where the recording does not say.
         parameters: of the estimate.
         metrics: {field of `Metrics`: value}, empty without truth.
-        why: where no point got a flow, what became of the moving ones.
+        why: see `Result`.
     """
 
     source: Source

@@ -11,7 +11,19 @@ import estimator
 import recordings
 import robot_assets
 
-_PACKAGES = ("numpy", "scipy", "scikit-learn", "open3d", "open3d-cpu", "embreex", "rosbags", "mcap")
+_PACKAGES = (
+    "numpy",
+    "scipy",
+    "scikit-learn",
+    "open3d",
+    "open3d-cpu",
+    "embreex",
+    "trimesh",
+    "yourdfpy",
+    "example-robot-data",
+    "rosbags",
+    "mcap",
+)
 
 
 @cache
@@ -34,6 +46,6 @@ def software_digest() -> str:
         folder = Path(str(room.__file__)).parent
         for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.toml")]):
             digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
-    for name in ("evaluation.py", "study/work.py", "study/diagnosis.py"):
+    for name in ("evaluation.py", "study/work.py", "study/diagnosis.py", "study/words.py"):
         digest.update((Path(str(app.__file__)).parent / name).read_bytes())
     return digest.hexdigest()

@@ -13,13 +13,15 @@ from threadpoolctl import threadpool_limits
 from app.errors import UserError
 from app.evaluation import evaluate
 from app.recording_notes import notes
-from app.study.diagnosis import why_no_flow
+from app.study.diagnosis import what_went_wrong, why_no_flow
 from app.study.software import software_digest
-from estimator import Parameters
+from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
 from recordings.simulation import NOISE_MODELS, SCENARIOS, write_simulation
 from robot_assets import load_rig, load_robot
 
+_LARGE = 0.5
+"""Share of the speed above which the error of what moves is looked into."""
 SWEPT_SCENARIO = "towards"
 """In which n is varied (paper, section III-B)."""
 
@@ -111,7 +113,8 @@ class Result:
         ask: that is answered.
         metrics: {field of `Metrics`: its value, None where undefined}; None without truth.
         seconds: of one core, that it took.
-        why: where no point got a flow, what became of the moving ones, in a sentence.
+        why: in a sentence, where no point got a flow what became of the moving ones, and where
+            flow of moving points is far off what went wrong.
     """
 
     ask: Ask
@@ -226,5 +229,20 @@ def _result(recording: Recording, ask: Ask) -> Result:
     if metrics is None:
         return Result(ask, None, thread_time() - begin)
     values = {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
-    why = None if metrics.points_with_flow else why_no_flow(recording, ask.parameters)
+    why = None
+    if not metrics.points_with_flow:
+        why = why_no_flow(recording, ask.parameters)
+    elif ask.resting and _is_far_off(metrics, recording):
+        why = what_went_wrong(recording, ask.parameters)
     return Result(ask, values, thread_time() - begin, why)
+
+
+def _is_far_off(metrics: Metrics, recording: Recording) -> bool:
+    """Whether errors are large though most of the flow is where something moves."""
+    made = recording.provenance
+    return (
+        made is not None
+        and made.speed is not None
+        and metrics.precision > 0.5
+        and metrics.velocity_error > _LARGE * made.speed
+    )

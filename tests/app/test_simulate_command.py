@@ -96,8 +96,11 @@ def test_a_simulated_recording_is_replaced_and_nothing_else_is(
     [
         (["all", "--out", "x.mcap"], "x.mcap is a file, which holds one recording, and 3 are"),
         (["towards", "--trial", "1", "2", "--out", "x.mcap"], "and 2 are asked for"),
-        (["towards", "--speed", "0", "--out", "x"], "--speed must be above 0 and at most 2 m/s"),
-        (["towards", "--speed", "nan", "--out", "x"], "--speed must be above 0 and at most 2 m/s"),
+        (["towards", "--speed", "0", "--out", "x"], "--speed must be above 0.01 and at most 2 m/s"),
+        (
+            ["towards", "--speed", "nan", "--out", "x"],
+            "--speed must be above 0.01 and at most 2 m/s",
+        ),
         (["towards", "--trial", "0", "--out", "x"], "--trial must be 1 or more, got 0"),
         (["towards", "--seed", "-1", "--out", "x"], "--seed must be 0 or more, got -1"),
         (["towards", "--out", "no/where/x.mcap"], "no/where/x.mcap cannot be written"),

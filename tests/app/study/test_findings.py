@@ -1,6 +1,8 @@
 from dataclasses import replace
+from pathlib import Path
 
 from app.study.findings import findings
+from app.study.work import Recorded
 from recordings.simulation import SPEEDS
 from tests.app.study.made import PLAN, good, made
 
@@ -22,7 +24,7 @@ def test_errors_are_judged_against_the_papers_mean_over_speeds():
     )
     assert "beyond 1.5 times" in said(*y(9.0, 0.068))
     assert "beyond 1.5 times" in said(*y(13.2, 0.045))
-    assert "and clearly smaller" in said(*y(4.0, 0.040))
+    assert "and clearly smaller. Why is not known" in said(*y(4.0, 0.040))
     assert "and clearly smaller" not in said(*y(9.0, 0.040))
 
 
@@ -40,13 +42,55 @@ def test_the_baseline_fails_above_50_degrees():
     assert "It is not above 50 deg" in said(*y(40.0, 0.2, "baseline"))
 
 
+def test_how_much_trials_of_the_baseline_differ_is_said_beside_the_papers():
+    few = [
+        made(trial=t, method="baseline", metrics=good(a, 0.2)) for t, a in ((1, 80.0), (2, 90.0))
+    ]
+    text = said(*few)
+    assert "std of the angle deviation over trials: 7.1 deg; the paper has 30.1 deg. Trials" in text
+    many = [
+        made(trial=t, method="baseline", metrics=good(a, 0.2)) for t, a in ((1, 40.0), (2, 90.0))
+    ]
+    assert "35.4 deg; the paper has 30.1 deg." in said(*many)
+    assert "Trials differ less" not in said(*many)
+
+
+def test_whether_errors_go_with_the_speed_as_the_papers_do_is_said():
+    # The paper's on x: 17.0, 16.4, 10.1, 10.3 deg.
+    def x(*angles: float) -> str:
+        rows = zip(SPEEDS, angles, strict=True)
+        return said(*(made("sideways", speed, metrics=good(angle, 0.1)) for speed, angle in rows))
+
+    assert "the paper's falls (17.0, 16.4, 10.1, 10.3 deg); here it rises (5.9," in x(
+        5.9, 7.3, 4.9, 7.5
+    )
+    assert "here it falls, too (9.0, 8.0, 7.0, 6.0 deg)." in x(9, 8, 7, 6)
+    assert "here it stays (9.0, 8.0, 7.0, 8.0 deg), and why it differs is not known." in x(
+        9, 8, 7, 8
+    )
+    assert "from the slowest" not in said(*y(9.0, 0.05))
+
+
+def test_recordings_that_say_the_same_are_named():
+    one, other = made(metrics=good(6.0, 0.03)), made(metrics=good(7.0, 0.04))
+    rows = [
+        replace(row, source=Recorded(Path(name)))
+        for row, name in ((one, "a.mcap"), (other, "b.mcap"))
+    ]
+    plan = replace(PLAN, recordings=(Recorded(Path("a.mcap")), Recorded(Path("b.mcap"))))
+    assert "a, b all say towards, 0.30 m/s, trial 1, and differ" in "\n".join(findings(plan, rows))
+    assert "all say" not in "\n".join(findings(plan, rows[:1] * 2))
+
+
 def test_detection_at_small_n_is_said():
     high = [made(n=8, trial=t, metrics=good(6.0, 0.03)) for t in (1, 2)]
     text = said(*high, made(n=1), methods=("paper",), sweep=(1, 8))
     assert "coverage over n: 1.00 at n = 8, 0.00 at n = 1" in text
-    assert "0.020 to 0.020 m" in text
+    assert "the mannequin goes 0.020 m, and" in text
     text = said(*high, made(n=1, metrics=good(6.0, 0.03)), methods=("paper",), sweep=(1, 8))
     assert "detection does not fall for small n" in text
+    alike = said(*high, made(n=1, metrics=good(6.0, 0.03)), methods=("paper",), sweep=(1, 8))
+    assert "coverage over n: 1.00 at n = 1; detection" in alike
 
 
 def test_what_could_not_be_computed_is_said_with_its_reason():
@@ -71,3 +115,7 @@ def test_a_trial_that_decides_its_cell_is_named():
     text = said(*rows, made(trial=4, metrics=good(29.0, 0.29)))
     assert "at 0.30 m/s: trial 4 alone has 29.0 deg and 0.290 m/s" in text
     assert "median of the trials is 6.0 deg and 0.030 m/s" in text
+    wrong = replace(made(trial=4, metrics=good(29.0, 0.29)), why="In 3 of 6 pairs it went wrong.")
+    assert "decides mean and std of its cell. In 3 of 6 pairs it went wrong." in said(*rows, wrong)
+    near = replace(made(trial=4, metrics=good(9.0, 0.08)), why="In 1 of 6 pairs it went wrong.")
+    assert "trial 4 has 9.0 deg and 0.080 m/s. In 1 of 6 pairs" in said(*rows, near)

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +11,8 @@ from app.study.further_tables import (
     scenarios_table,
     sweep_table,
 )
+from app.study.paper_tables import paper_tables
+from app.study.work import Recorded
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 from tests.app.study.made import PLAN, good, made
 
@@ -46,6 +49,19 @@ def test_metrics_are_all_that_evaluate_knows_and_sums_where_they_count():
     assert (line["pairs"], line["points_with_flow"]) == (14, 200)
     assert line["epe3d"] == pytest.approx(0.01)
     assert line["dynamic_iou"] is None
+    assert "ways than the 0.16 m of these pairs" in table.note
+    assert "truly move, faster than 0.01 m/s, and got a flow" in table.note
+    slower = [*rows, made(speed=0.15, metrics=good(6.0, 0.03))]
+    assert "the 0.08 to 0.16 m of these" in metrics_table(PLAN, slower).note
+    assert "of these pairs" not in metrics_table(PLAN, [made("still", 0.0)]).note
+
+
+def test_where_the_truth_is_a_frames_motion_the_notes_say_what_that_means():
+    given = (Recorded(Path("a.mcap"), truth_frame="panel"),)
+    rows = [made(metrics=good(6.0, 0.03))]
+    for make in (metrics_table, recordings_table, lambda *of: paper_tables(*of)[0]):
+        assert "precision is 1 by construction" in make(replace(PLAN, recordings=given), rows).note
+        assert "by construction" not in make(PLAN, rows).note
 
 
 def test_scenarios_beyond_the_papers_have_a_table_of_their_own():

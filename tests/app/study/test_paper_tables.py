@@ -38,6 +38,7 @@ def test_a_cell_is_mean_and_sample_deviation_over_trials_beside_the_papers():
     assert line["paper_angle_mean"] == 10.313
     assert line["paper_velocity_std"] == 0.013
     assert (line["coverage"], line["precision"], line["trials"]) == (1.0, 0.5, "2/2")
+    assert line["pairs"] == 14
 
     baseline = next(
         r for r in first.rows if r["speed"] == 0.30 and r["experiment"] == "y-axis (baseline)"

@@ -2,6 +2,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -71,6 +72,25 @@ def test_tables_hold_what_evaluate_finds_on_the_same_recording(tiny: Path, tmp_p
     for name in ("table_1", "metrics", "sweep"):
         assert ours[name] == theirs[name]
     assert "no recordings at 0.15, 0.20, 0.25 m/s here" in (given / "index.html").read_text()
+
+
+def test_what_another_study_left_in_the_folder_is_no_part_of_this_one(tiny: Path, tmp_path: Path):
+    shutil.copytree(tiny, tmp_path / "out")
+    (tmp_path / "out" / "tables" / "mine.csv").write_text("kept")
+    assert study(tmp_path / "out", *TINY[:-2]) == 0
+    left = {path.name for path in (tmp_path / "out").rglob("*") if path.is_file()}
+    assert not {name for name in left if name.startswith("sweep")}
+    assert {"index.html", "table_1.tex", "mine.csv"} <= left
+
+
+def test_the_second_command_on_the_page_is_whole(tmp_path: Path):
+    asked = [*TINY[:-3], "--method", "paper", "--gamma", "0.6", "--allow-single-cluster", "--sweep"]
+    assert study(tmp_path, *asked) == 0
+    text = (tmp_path / "index.html").read_text("utf-8")
+    assert (
+        "tofscope study --recordings recordings --method paper --sweep --gamma 0.6 "
+        "--allow-single-cluster --out FOLDER"
+    ) in text
 
 
 def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixture[str]):
@@ -165,6 +185,7 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
         blind.add("/eye/image", "sensor_msgs/msg/Image", message, k)
     blind.write(tmp_path / "in" / "blind.mcap")
     room = write_room(tmp_path / "in" / "room.mcap", frames=12)
+    shutil.copy(room.path, tmp_path / "in" / "same.mcap")
     (tmp_path / "in" / "broken.mcap").write_bytes(b"nonsense")
     out = tmp_path / "out"
     assert study(out, "--recordings", "in", "--sweep") == 0
@@ -175,6 +196,7 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
     assert "Not evaluated:" in said.err
     assert "not an MCAP file" in said.err
     assert "blind has no truth" in said.err
+    assert "same has the same content as room, and counts once." in said.err
     text = (out / "index.html").read_text("utf-8")
     assert "not an MCAP file" in text
     assert "blind has no truth" in text
@@ -211,7 +233,9 @@ def test_where_nothing_could_be_evaluated_the_exit_code_is_1(
         (["--jobs", "0"], "--jobs must be 1 or more"),
         (["--sweep", "0"], "n must be between"),
         (["--trial", "0"], "--trial must be 1 or more"),
-        (["--speed", "-1"], "--speed must be above 0"),
+        (["--speed", "-1"], "--speed must be above 0.01 and at most 2 m/s, got -1."),
+        (["--speed", "0.0001"], "--speed must be above 0.01 and at most 2 m/s, got 0.0001."),
+        (["--speed", "inf"], "--speed must be above 0.01 and at most 2 m/s, got inf."),
         (["--seed", "-1"], "--seed must be 0 or more"),
         (["--recordings", "nowhere"], "no file or folder nowhere"),
     ],
