@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from html import escape
 
-from app.colours import PICKED, css
+from app.colours import css
 from app.palettes import Palette
 from app.panels.tables import Row, framed, signed, table
 from estimator import ClusterResult, IcpRound, Label, Parameters
@@ -45,7 +45,7 @@ def cluster_table(
                 _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
                 f"{swatch(cluster.label, palette)}{cluster.label.name.lower()}",
             ),
-            marked=cluster.index == picked,
+            mark=palette.picked if cluster.index == picked else None,
             attributes=attributes(cluster),
         )
         for cluster in clusters
@@ -97,7 +97,7 @@ def legend(palette: Palette) -> str:
     )
     return framed(
         f"{labels}<div>Clusters, by their last round; those without a round are left out. "
-        f'<span style="color: {css(PICKED)}">▲</span> the picked one.</div>'
+        f'<span style="color: {css(palette.picked)}">▲</span> the picked one.</div>'
     )
 
 

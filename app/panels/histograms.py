@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from app.colours import PICKED, css
+from app.colours import css
 from app.palettes import Palette
 from app.panels.cluster_story import fills
 from estimator import Label
@@ -66,7 +66,9 @@ class Histogram:
         ]
         if self.marked is not None and not math.isnan(self.marked):
             at = self._x(self.marked)
-            parts.append(f'<path d="M{at:.1f} {_BOTTOM + 2}l-4 7h8z" fill="{css(PICKED)}"/>')
+            parts.append(
+                f'<path d="M{at:.1f} {_BOTTOM + 2}l-4 7h8z" fill="{css(self.palette.picked)}"/>'
+            )
         return (
             f'<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" width="100%" fill="currentColor" '
             f'font-size="10" role="img" style="padding: 0 0.5em">{"".join(parts)}</svg>'

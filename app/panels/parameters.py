@@ -159,8 +159,15 @@ class ParametersPanel(Panel):
 
 
 def _add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
-    undo = gui.add_command("Undo parameters", hotkey="Z", modifier="cmd/ctrl")
-    redo = gui.add_command("Redo parameters", hotkey="Z", modifier="cmd/ctrl+shift")
+    undo = gui.add_command(
+        "Undo parameters", hotkey="Z", modifier="cmd/ctrl", icon=viser.Icon.ARROW_BACK_UP
+    )
+    redo = gui.add_command(
+        "Redo parameters",
+        hotkey="Z",
+        modifier="cmd/ctrl+shift",
+        icon=viser.Icon.ARROW_FORWARD_UP,
+    )
     reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
 
     # Coroutines run at once, so that keys are taken in their order.

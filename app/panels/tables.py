@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from app.colours import PICKED, css
+from app.colours import Colour, css
 
 
 @dataclass(frozen=True)
@@ -12,12 +12,12 @@ class Row:
 
     Attributes:
         cells: HTML.
-        marked: whether it is the one that is picked.
+        mark: colour of a mark before it, None for none.
         attributes: of its element, such as say what a click on it does.
     """
 
     cells: Sequence[str]
-    marked: bool = False
+    mark: Colour | None = None
     attributes: str = ""
 
 
@@ -48,5 +48,5 @@ def signed(value: float, form: str) -> str:
 
 
 def _look(row: Row) -> str:
-    mark = f"; box-shadow: inset 3px 0 {css(PICKED)}; font-weight: bold" if row.marked else ""
+    mark = f"; box-shadow: inset 3px 0 {css(row.mark)}; font-weight: bold" if row.mark else ""
     return f"{mark}; cursor: pointer" if row.attributes else mark
