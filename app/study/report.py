@@ -80,11 +80,7 @@ class Study:
         """All tables, the paper's first."""
         plan, rows = self.plan, self.rows()
         tables = [
-            *(
-                table
-                for table in paper_tables(plan, rows)
-                if plan.recordings is None or _any(table)
-            ),
+            *(table for table in paper_tables(plan, rows) if _any(table)),
             scenarios_table(plan, rows),
             metrics_table(plan, rows),
             sweep_table(plan, rows),
