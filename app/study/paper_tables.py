@@ -12,7 +12,7 @@ from recordings.simulation import SPEEDS
 _ANGLE, _VELOCITY = "Angle deviation (deg)", "Linear velocity error (m/s)"
 _COLUMNS = (
     Column("experiment", "Experiment"),
-    Column("speed", "Target speed (m/s)", ".2f"),
+    Column("speed", "Speed (m/s)", ".2f"),
     Column("angle_mean", "mean", ".3f", _ANGLE),
     Column("paper_angle_mean", "paper mean", ".3f", _ANGLE, theirs=True),
     Column("angle_std", "std", ".3f", _ANGLE),

@@ -216,6 +216,31 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
     assert room.path.stem in said.out.split("Every recording")[1]
 
 
+def test_a_result_that_cannot_be_kept_does_not_end_the_study(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    room = write_room(tmp_path / "room.mcap", frames=12)
+    monkeypatch.setattr("os.replace", full)
+    assert study(tmp_path / "out", "--recordings", str(room.path), "--sweep") == 0
+    said = capsys.readouterr().err.splitlines()
+    assert [line.partition(":")[0] for line in said] == ["Not kept for another time"]
+    assert said[0].endswith("cannot be written: No space left on device.")
+    assert "room" in (tmp_path / "out" / "tables" / "recordings.csv").read_text()
+
+
+def test_where_a_frames_motion_is_the_truth_it_is_said_below_the_table(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    room = write_room(tmp_path / "room.mcap", frames=12)
+    asked = ["--recordings", str(room.path), "--sweep", "--truth-frame"]
+    assert study(tmp_path / "out", *asked, "skin_0") == 0
+    below = capsys.readouterr().out.split("Every recording")[1]
+    assert "move with the frame skin_0: precision is 1 by construction" in below
+
+
 def test_where_nothing_could_be_evaluated_the_exit_code_is_1(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):
