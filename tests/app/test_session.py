@@ -1,33 +1,22 @@
-import io
 import threading
 import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from app.estimates import Estimates
 from app.library import Library
-from app.palettes import PAPER, palette
-from app.parameter_files import from_text
 from app.reloads import Reloads
 from app.scene.stage import FIXED
 from app.session import Session, Shared
 from app.wishes import OpenRecording
 from estimator import Parameters
 from recordings import RecordingError
+from tests.app.drawn import arrow_count, points
 from tests.app.fake_client import FakeClient
 from tests.app.fake_recordings import FRAMES, fake_recording
 from tests.app.waiting import until
-
-
-def points(client, node):
-    return np.array(client.node(f"{FIXED}/{node}").points)
-
-
-def arrow_count(client):
-    return len(points(client, "flow"))
 
 
 def sent_nodes(client):
@@ -208,82 +197,6 @@ def test_steps_add_up(session, client):
     until(lambda: f"Frame {FRAMES - 1} of" in client.text())
 
 
-def test_a_screenshot_is_named_after_recording_and_frame(session, client):
-    client.press("Save screenshot")
-    until(lambda: client.downloads)
-    name, content = client.downloads[0]
-    assert name == "a_frame_0024.png"
-    assert content.startswith(b"\x89PNG")
-
-
-def test_both_views_of_a_size_are_one_picture_that_says_what_it_shows(session, client):
-    client.change("Size", "1280 x 720")
-    client.change("Scale", "2x")
-    asked = []
-
-    def render(height, width, **_):
-        asked.append((width, height, client.node(f"{FIXED}/source").point_size))
-        return np.zeros((height, width, 4), dtype=np.uint8)
-
-    client.get_render = render
-    before = client.node(f"{FIXED}/source").point_size
-    client.press("Save 3D and top view")
-    until(lambda: client.downloads)
-    name, content = client.downloads[0]
-    assert name == "a_frame_0024_3d_top.png"
-    picture = Image.open(io.BytesIO(content))
-    assert picture.size == (2 * 2560, 1440)
-    assert picture.info["Recording"] == "a"
-    assert picture.info["Frame"].startswith("24 of 39")
-    assert from_text(picture.info["Parameters"], name) == Parameters()
-    assert [a[:2] for a in asked if a[0] > 8] == [(2560, 1440)] * 2
-    # The window is 60 pixels high: in a larger picture points have to be as much larger.
-    assert asked[-1][2] > 10 * before
-    until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(before))
-    assert len(points(client, "source")) == 500
-
-
-def test_saved_parameters_are_those_in_use(session, client):
-    client.change("δ", 0.3)
-    client.press("Save as a file")
-    until(lambda: client.downloads)
-    name, content = client.downloads[0]
-    assert name == "parameters.json"
-    assert from_text(content.decode(), name) == Parameters(delta=0.3)
-
-
-def test_a_white_picture_of_a_dark_page_has_the_colours_for_white(session, client):
-    client.change("Dark", True)
-    client.change("With legend", False)
-    client.change("Background", "White")
-    flow = f"{FIXED}/flow"
-    dark = palette(PAPER, dark=True).flow
-    until(lambda: tuple(client.node(flow).colors[0]) == dark)
-    seen = []
-
-    def render(height, width, **_):
-        seen.append(tuple(client.node(flow).colors[0]))
-        return np.zeros((height, width, 4), dtype=np.uint8)
-
-    client.get_render = render
-    client.press("Save screenshot")
-    until(lambda: client.downloads)
-    assert set(seen) == {palette(PAPER, dark=False).flow}
-    until(lambda: tuple(client.node(flow).colors[0]) == dark)
-    assert Image.open(io.BytesIO(client.downloads[0][1])).getpixel((5, 5)) == (255, 255, 255)
-    client.change("Background", "As on the screen")
-    client.press("Save screenshot")
-    until(lambda: len(client.downloads) == 2)
-    assert seen[-1] == dark
-    assert Image.open(io.BytesIO(client.downloads[1][1])).getpixel((5, 5)) == (20, 20, 20)
-
-
-def test_a_screenshot_that_fails_is_told(session, client):
-    client.render = TimeoutError("no frame")
-    client.press("Save screenshot")
-    until(lambda: any("The browser gave no picture" in n for n in client.notifications))
-
-
 def test_the_end_of_a_session_gives_everything_back(client, shared, runs):
     session = Session(client, shared)
     until(lambda: "Moving" in client.text())
@@ -386,133 +299,6 @@ def test_surveys_are_everybodys_alike(shared):
         thread.join()
     assert all(surveys is shared.surveys for surveys in seen)
     assert "surveys" in vars(shared)
-
-
-def test_an_export_goes_on_when_another_recording_is_opened(session, client, shared, runs):
-    runs.delay = 0.05
-    client.press("Save offline page")
-    until(lambda: "Drawing frame by frame." in client.notifications)
-    start = time.monotonic()
-    client.change("Recording", "b")
-    until(lambda: client.control("Recording").value == "b" and "Frame" in client.text())
-    until(lambda: len(shared.library._shared) == 2)
-    assert time.monotonic() - start < 5
-    until(lambda: client.downloads)
-    assert client.downloads[0][0] == "a.html"
-    until(lambda: [entry.label for entry in shared.library._shared] == ["b"])
-
-
-def test_the_end_of_a_session_ends_its_export(client, shared, runs):
-    session = Session(client, shared)
-    until(lambda: "Moving" in client.text())
-    runs.delay = 0.1
-    client.press("Save offline page")
-    until(lambda: "Drawing frame by frame." in client.notifications)
-    start = time.monotonic()
-    session.close()
-    session.join(10)
-    assert time.monotonic() - start < 5
-    until(lambda: "offline page" not in [thread.name for thread in threading.enumerate()])
-    assert client.downloads == []
-    assert shared.library._shared == {}
-
-
-def test_b_is_edited_apart_from_a_and_both_can_be_drawn(session, client, runs):
-    client.press("Copy A to B")
-    until(lambda: "<b>B</b> is shown" in client.text())
-    client.change("δ", 0.3)
-    until(lambda: arrow_count(client) == 0)
-    client.trigger("Compare: switch between A and B")
-    until(lambda: arrow_count(client) == 100)
-    until(lambda: client.control("δ").value == 0.04)
-    client.change("γ", 0.6)
-    until(lambda: runs.parameters[-1] == Parameters(gamma=0.6))
-    client.press("Switch to B")
-    until(lambda: client.control("δ").value == 0.3)
-    until(lambda: client.control("γ").value == 0.7)
-    until(lambda: arrow_count(client) == 0)
-    client.press("Draw both")
-    # Points and labels are those of the edited one, and each keeps its colour.
-    until(lambda: len(points(client, "second_flow")) == 100)
-    assert arrow_count(client) == 0
-    client.change("δ", 0.05)
-    until(lambda: arrow_count(client) == 100)
-    colours = palette(PAPER, dark=False)
-    assert np.unique(client.node(f"{FIXED}/flow").colors, axis=0).tolist() == [list(colours.second)]
-    assert tuple(client.node(f"{FIXED}/second_flow").colors) == colours.flow
-    client.press("Save screenshot")
-    until(lambda: client.downloads)
-    said = Image.open(io.BytesIO(client.downloads[0][1])).info
-    assert from_text(said["Parameters of A"], "A") == Parameters(gamma=0.6)
-    assert from_text(said["Parameters of B"], "B") == Parameters(delta=0.05)
-    assert from_text(said["Parameters"], "") == Parameters(delta=0.05)
-    client.change("Flow", False)
-    until(lambda: not client.node(f"{FIXED}/second_flow").visible)
-    client.press("Remove B")
-    until(lambda: len(points(client, "second_flow")) == 0)
-    until(lambda: client.control("γ").value == 0.6)
-    until(lambda: client.control("δ").value == 0.04)
-
-
-def test_a_and_b_are_undone_apart(session, client):
-    client.change("γ", 0.6)
-    client.press("Copy A to B")
-    until(lambda: "<b>B</b> is shown" in client.text())
-    client.change("δ", 0.3)
-    until(lambda: arrow_count(client) == 0)
-    client.trigger("Undo parameters")
-    until(lambda: client.control("δ").value == 0.04)
-    client.trigger("Undo parameters")
-    client.press("Switch to A")
-    until(lambda: "<b>A</b> is shown" in client.text())
-    assert client.control("γ").value == 0.6
-    client.trigger("Undo parameters")
-    until(lambda: client.control("γ").value == 0.7)
-
-
-def test_a_second_copy_to_b_is_undone_as_any_change_of_b(session, client):
-    client.press("Copy A to B")
-    until(lambda: "<b>B</b> is shown" in client.text())
-    for value in (0.1, 0.2):
-        client.change("δ", value)
-        until(lambda value=value: f"δ: 0.04 → {value}" in client.text())
-        client.change("Step", "+1")
-        time.sleep(1.1)  # two drags
-    client.press("Copy A to B")
-    until(lambda: client.control("δ").value == 0.04)
-    for value in (0.2, 0.1, 0.04):
-        client.trigger("Undo parameters")
-        until(lambda value=value: client.control("δ").value == value, timeout=5)
-
-
-def test_only_what_is_shown_is_estimated(session, client, runs):
-    client.press("Copy A to B")
-    until(lambda: "<b>B</b> is shown" in client.text())
-    client.change("δ", 0.3)
-    until(lambda: runs.parameters[-1].delta == 0.3)
-    client.trigger("Compare: switch between A and B")
-    until(lambda: client.control("δ").value == 0.04)
-    count = len(runs)
-    for step in range(3):
-        client.change("Frame", 30 + step)
-        until(lambda step=step: len(runs) == count + step + 1)
-    assert [p.delta for p in runs.parameters[count:]] == [0.04] * 3
-    until(lambda: "B is not estimated here" in client.text())
-    client.press("Draw both")
-    until(lambda: runs.parameters[-1].delta == 0.3)
-    until(lambda: "not estimated here" not in client.text())
-
-
-def test_an_error_of_one_estimate_is_told_and_the_other_is_shown(session, client, runs):
-    client.press("Copy A to B")
-    until(lambda: "<b>B</b> is shown" in client.text())
-    client.press("Draw both")
-    until(lambda: "The flow of B." in client.text())
-    runs.error = RuntimeError("B has had enough")
-    client.change("δ", 0.05)
-    until(lambda: any("B has had enough" in n for n in client.notifications))
-    assert len(points(client, "second_flow")) == 100
-    assert arrow_count(client) == 0
 
 
 def test_the_command_palette_does_what_buttons_do(session, client):

@@ -1,0 +1,13 @@
+"""What a session has drawn, as its client has it."""
+
+import numpy as np
+
+from app.scene.stage import FIXED
+
+
+def points(client, node):
+    return np.array(client.node(f"{FIXED}/{node}").points)
+
+
+def arrow_count(client):
+    return len(points(client, "flow"))
