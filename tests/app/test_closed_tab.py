@@ -24,8 +24,9 @@ from tests.app.wire_client import WireClient
 
 OF_ONE_CLIENT = (Session, Workbench, Page, Scene, viser.ClientHandle, viser.SceneNodeHandle)
 
-# Results are shared and bounded; for a while they become more.
-REMEMBERED = {"app.estimates", "app.memory", "app.survey"}
+# Results are shared and bounded; for a while they become more. What the last session left is kept
+# for its tab, with a comparison or, where the client left before it was made, without one.
+REMEMBERED = {"app.estimates", "app.memory", "app.survey", "app.comparison"}
 
 
 class Seen:
