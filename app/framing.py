@@ -5,6 +5,7 @@ import viser
 
 from app.estimates import Pair
 from app.places import Camera
+from app.scene.lens import aspect_of
 from app.scene.scene import Scene
 from app.scene.views import THREE_D
 
@@ -29,12 +30,6 @@ class Framing:
         self._blank = False
         self._taken: tuple[str, float, Camera] | None = None
 
-    @property
-    def aspect(self) -> float:
-        """Width by height of the scene in the browser."""
-        camera = self._client.camera
-        return camera.image_width / max(camera.image_height, 1)
-
     def stand(self, camera: Camera) -> None:
         """Let the next recording that is drawn be seen from there, instead of its first view."""
         self._waiting = camera
@@ -51,7 +46,7 @@ class Framing:
 
     def look(self, pair: Pair, view: str) -> None:
         """Put the camera to the view of this name."""
-        aspect = self.aspect
+        aspect = aspect_of(self._client.camera)
         self._taken = (view, aspect, self._scene.place_camera(pair, view, aspect))
 
     def seen(self, pair: Pair) -> None:
@@ -64,7 +59,8 @@ class Framing:
         if self._taken is None:
             return
         view, aspect, placed = self._taken
-        if abs(self.aspect / aspect - 1) > _SAME_SHAPE and _same(placed, self._scene.camera()):
+        reshaped = abs(aspect_of(self._client.camera) / aspect - 1) > _SAME_SHAPE
+        if reshaped and _same(placed, self._scene.camera()):
             self.look(pair, view)
 
 

@@ -1,6 +1,6 @@
 """Sets of colours: as in the paper, or such that colour-blind readers can tell them apart."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,70 +86,62 @@ _CATEGORIES = (
 _RAMP = ((62, 30, 120), (52, 94, 160), (22, 140, 130), (90, 180, 60), (225, 190, 20))
 _BRIGHT_RAMP = ((110, 80, 200), (70, 130, 210), (40, 180, 165), (130, 215, 90), (253, 225, 60))
 
+_PAPER_LIGHT = Palette(
+    source=SOURCE,
+    stationary=(236, 164, 160),
+    unassigned=(158, 162, 170),
+    target=TARGET,
+    flow=FLOW,
+    second=(130, 50, 200),
+    picked=PICKED,
+    truth=TRUTH,
+    ghost=(248, 178, 92),
+    frustum=FRUSTUM,
+    grid=_LIGHT_GRID,
+    categories=_CATEGORIES,
+    ramp=_RAMP,
+    light=1.0,
+)
+_PAPER_DARK = Palette(
+    source=(255, 82, 76),
+    stationary=(140, 66, 64),
+    unassigned=(98, 102, 110),
+    target=(84, 150, 255),
+    flow=(60, 205, 100),
+    second=(185, 120, 255),
+    picked=(255, 80, 190),
+    truth=(255, 160, 40),
+    ghost=(170, 110, 40),
+    frustum=(150, 90, 90),
+    grid=_DARK_GRID,
+    categories=_CATEGORIES,
+    ramp=_BRIGHT_RAMP,
+    light=0.65,
+)
 _ALL = {
-    (PAPER, False): Palette(
-        source=SOURCE,
-        stationary=(236, 164, 160),
-        unassigned=(158, 162, 170),
-        target=TARGET,
-        flow=FLOW,
-        second=(130, 50, 200),
-        picked=PICKED,
-        truth=TRUTH,
-        ghost=(248, 178, 92),
-        frustum=FRUSTUM,
-        grid=_LIGHT_GRID,
-        categories=_CATEGORIES,
-        ramp=_RAMP,
-        light=1.0,
-    ),
-    (PAPER, True): Palette(
-        source=(255, 82, 76),
-        stationary=(140, 66, 64),
-        unassigned=(98, 102, 110),
-        target=(84, 150, 255),
-        flow=(60, 205, 100),
-        second=(185, 120, 255),
-        picked=(255, 80, 190),
-        truth=(255, 160, 40),
-        ghost=(170, 110, 40),
-        frustum=(150, 90, 90),
-        grid=_DARK_GRID,
-        categories=_CATEGORIES,
-        ramp=_BRIGHT_RAMP,
-        light=0.65,
-    ),
-    (COLOUR_BLIND, False): Palette(
+    (PAPER, False): _PAPER_LIGHT,
+    (PAPER, True): _PAPER_DARK,
+    (COLOUR_BLIND, False): replace(
+        _PAPER_LIGHT,
         source=(213, 94, 0),
         stationary=(240, 190, 150),
-        unassigned=(158, 162, 170),
         target=(0, 114, 178),
         flow=(0, 138, 100),
         second=(95, 60, 20),
-        picked=PICKED,
         truth=(170, 70, 130),
         ghost=(222, 170, 202),
         frustum=(160, 140, 130),
-        grid=_LIGHT_GRID,
-        categories=_CATEGORIES,
-        ramp=_RAMP,
-        light=1.0,
     ),
-    (COLOUR_BLIND, True): Palette(
+    (COLOUR_BLIND, True): replace(
+        _PAPER_DARK,
         source=(255, 140, 50),
         stationary=(140, 84, 44),
-        unassigned=(98, 102, 110),
         target=(86, 180, 233),
         flow=(40, 205, 155),
         second=(240, 228, 66),
-        picked=(255, 80, 190),
         truth=(225, 140, 190),
         ghost=(140, 84, 120),
         frustum=(130, 112, 100),
-        grid=_DARK_GRID,
-        categories=_CATEGORIES,
-        ramp=_BRIGHT_RAMP,
-        light=0.65,
     ),
 }
 

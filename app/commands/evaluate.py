@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from app.errors import InputError, UserError
+from app.errors import UserError
 from app.evaluation import COLUMNS, evaluate
+from app.output_files import check_place, write
 from app.parameter_flags import add_parameter_flags, parameters_from
 from app.recording_flags import (
     Opening,
@@ -54,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     parameters = parameters_from(options)
     opening = opening_from(options)
     if options.json:
-        _check_writable(options.json)
+        check_place(options.json)
     rows: list[dict[str, Any]] = []
     paths = recording_paths(options.paths)
     table = _Table(max(20, *(len(path.stem) + 1 for path in paths)))  # names of means are longer
@@ -70,7 +71,8 @@ def run(options: argparse.Namespace) -> int:
     for mean in means:
         print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
     if options.json:
-        _write(options.json, {"parameters": asdict(parameters), "recordings": rows, "means": means})
+        table_of_all = {"parameters": asdict(parameters), "recordings": rows, "means": means}
+        write(options.json, (json.dumps(table_of_all, indent=2) + "\n").encode())
     return 0 if any(row["pairs"] is not None for row in rows) else 1
 
 
@@ -148,16 +150,3 @@ class _Table:
         first, *widths = self._widths
         aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
         return "  ".join([name.ljust(first), *aligned]).rstrip()
-
-
-def _check_writable(path: Path) -> None:
-    """Find out before all the work is done."""
-    if path.is_dir() or not path.absolute().parent.is_dir():
-        raise InputError(f"{path} cannot be written: it is a folder, or its folder is not there.")
-
-
-def _write(path: Path, content: dict[str, Any]) -> None:
-    try:
-        path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}.") from error

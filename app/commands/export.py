@@ -1,12 +1,12 @@
 """`tofscope export`: pictures, and a page that plays offline, with no one at a browser."""
 
 import argparse
-import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.errors import InputError
+from app.output_files import check_place, write
 from app.parameter_flags import add_parameter_flags, parameters_from
 from app.recording_flags import add_recording_flags, opening_from
 from estimator import Parameters
@@ -122,7 +122,7 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     views = _views(options)
     framing = Framing(width, height, views, options.transparent, options.legend)
     content = picture(opened, pair, parameters, _settings(options), framing)
-    _write(options.screenshot, content)
+    write(options.screenshot, content)
     print(
         f"{options.screenshot}: frame {frame} of {opened.recording.name}, "
         f"{width * len(views)} x {height}."
@@ -151,7 +151,7 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
         lambda _: None,
     )
     content = page.encode()
-    _write(options.html, content)
+    write(options.html, content)
     print(
         f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
         f"{len(content) / 1e6:.1f} MB."
@@ -202,20 +202,7 @@ def _check_place(path: Path, ending: str) -> None:
     """Raise InputError where a file cannot be, before anything is computed for it."""
     if path.suffix.lower() != ending and not path.is_dir():
         raise InputError(f"{path} will not be known for what it is; let its name end in {ending}.")
-    folder = path.absolute().parent
-    if path.is_dir():
-        raise InputError(f"{path} cannot be written: it is a folder.")
-    if not folder.is_dir():
-        raise InputError(f"{path} cannot be written: there is no folder {folder}.")
-    if not os.access(path if path.exists() else folder, os.W_OK):
-        raise InputError(f"{path} cannot be written: permission denied.")
-
-
-def _write(path: Path, content: bytes) -> None:
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}.") from error
+    check_place(path)
 
 
 def _size(text: str) -> tuple[int, int]:

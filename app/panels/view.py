@@ -10,7 +10,7 @@ from viser import Icon
 from app.controls import show_value
 from app.palettes import PALETTES
 from app.panel import Desk, Panel, Shown
-from app.scene.lens import Lens
+from app.scene.lens import Lens, aspect_of
 from app.scene.settings import ARROW_COLOURS, LAYERS
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
 from app.theme import dress
@@ -100,7 +100,7 @@ class ViewPanel(Panel):
         @camera.on_update
         async def _(camera: viser.CameraHandle) -> None:
             # While it only turns, nothing has to be drawn anew.
-            lens, aspect = Lens.of(camera), camera.image_width / max(camera.image_height, 1)
+            lens, aspect = Lens.of(camera), aspect_of(camera)
             if not lens.similar(drawn[0][0]) or not np.isclose(aspect, drawn[0][1], rtol=0.02):
                 drawn[0] = (lens, aspect)
                 self._post(CameraMoved())

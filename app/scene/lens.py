@@ -16,6 +16,11 @@ _KEPT = 1.5  # metres around what the camera looks at, within which everything i
 _CLEARED = 0.45  # of the way to what the camera looks at, at most
 
 
+def aspect_of(camera: viser.CameraHandle) -> float:
+    """Width by height of the scene in the browser whose camera it is."""
+    return camera.image_width / max(camera.image_height, 1)
+
+
 @dataclass(frozen=True)
 class Lens:
     """How a camera sees.
