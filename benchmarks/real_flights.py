@@ -11,8 +11,8 @@ from itertools import count, product
 from pathlib import Path
 from typing import Any
 
-from app.evaluation import evaluate
-from app.parameter_files import to_text
+from app.analysis.evaluation import evaluate
+from app.analysis.parameter_files import to_text
 from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
 

@@ -8,11 +8,11 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from app.estimates import Estimates, warm_up
-from app.library import Library
-from app.reloads import Reloads
+from app.analysis.estimates import Estimates, warm_up
+from app.analysis.library import Library
 from app.scene.clouds_view import FLOW_NODE
-from app.session import Session, Shared
+from app.server.session import Session, Shared
+from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import open_recording, sample_paths
 from tests.app.fake_client import FakeClient

@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 
-from app.errors import UserError
-from app.evaluation import COLUMNS, evaluate
-from app.output_files import check_place, write
-from app.parameter_flags import add_parameter_flags, parameters_from
-from app.recording_flags import (
+from app.analysis.evaluation import COLUMNS, evaluate
+from app.analysis.notes import notes
+from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.commands.flags.recording_flags import (
     Opening,
     add_recording_flags,
     opening_from,
     recording_paths,
 )
-from app.recording_notes import notes
+from app.commands.output_files import check_place, write
+from app.errors import UserError
 from estimator import Metrics, Parameters
 
 _MEANS = tuple(key for key in COLUMNS if key not in ("pairs", "points_with_flow"))

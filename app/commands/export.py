@@ -5,14 +5,14 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.commands.flags.recording_flags import add_recording_flags, opening_from
+from app.commands.output_files import check_place, write
 from app.errors import InputError
-from app.output_files import check_place, write
-from app.parameter_flags import add_parameter_flags, parameters_from
-from app.recording_flags import add_recording_flags, opening_from
 from estimator import Parameters
 
 if TYPE_CHECKING:
-    from app.library import Opened
+    from app.analysis.library import Opened
     from app.scene.settings import ViewSettings
 
 _VIEWS = ("3d", "top", "front", "robot", "fit")
@@ -85,7 +85,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
-    from app.library import Library
+    from app.analysis.library import Library
 
     parameters = parameters_from(options)
     _check_flags(options)
@@ -109,9 +109,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
-    from app.estimates import Estimates
+    from app.analysis.estimates import Estimates
+    from app.analysis.first_frame import telling_frame
     from app.exports.picture import Framing, picture
-    from app.opening import telling_frame
 
     estimates, frame = Estimates(), options.frame
     if frame is None:
@@ -130,7 +130,7 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
 
 
 def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
-    from app.estimates import Estimates
+    from app.analysis.estimates import Estimates
     from app.exports.offline_page import offline_page
 
     first, last = options.frames or (None, None)
@@ -166,7 +166,7 @@ def _views(options: argparse.Namespace) -> tuple[str, ...]:
 
 
 def _settings(options: argparse.Namespace) -> "ViewSettings":
-    from app.palettes import PALETTES
+    from app.scene.palettes import PALETTES
     from app.scene.settings import ARROW_COLOURS, ViewSettings
 
     return ViewSettings(

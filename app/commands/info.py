@@ -6,8 +6,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from app.commands.flags.recording_flags import Opening, add_recording_flags, opening_from
 from app.errors import UserError
-from app.recording_flags import Opening, add_recording_flags, opening_from
 from recordings import Recording
 from recordings.info import FileInfo, TopicInfo, file_info
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from app.commands.flags.simulation_flags import MAX_SPEED, check_simulation
 from app.errors import InputError
-from app.simulation_flags import MAX_SPEED, check_simulation
 from recordings import RecordingError, open_recording
 from recordings.simulation import (
     IMPERFECTIONS,

@@ -11,13 +11,13 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
+from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.commands.flags.recording_flags import add_recording_flags, opening_from, recording_paths
+from app.commands.flags.simulation_flags import check_simulation
+from app.commands.flags.study_flags import ALL, MORE, add_execution_flags, add_source_flags
 from app.errors import InputError
-from app.parameter_flags import add_parameter_flags, parameters_from
-from app.recording_flags import add_recording_flags, opening_from, recording_paths
-from app.simulation_flags import check_simulation
 from app.study.conditions import truth_frame_text
 from app.study.execution import outcomes
-from app.study.flags import ALL, MORE, add_execution_flags, add_source_flags
 from app.study.plan import METHODS, SWEEP, Plan
 from app.study.progress import Progress, duration
 from app.study.report import PAGE, Study, write_report

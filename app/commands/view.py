@@ -7,8 +7,8 @@ import sys
 import threading
 from pathlib import Path
 
-from app.parameter_flags import add_parameter_flags, parameters_from
-from app.recording_flags import add_recording_flags, opening_from
+from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.commands.flags.recording_flags import add_recording_flags, opening_from
 from recordings import sample_paths
 
 _LOOK_UP = 0.5  # seconds
@@ -44,11 +44,11 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until somebody ends it."""
     # viser takes a second to import, which `tofscope --help` need not wait for.
-    from app.estimates import Estimates, warm_up
-    from app.library import Library
-    from app.reloads import Reloads
-    from app.server import Server
-    from app.session import Shared
+    from app.analysis.estimates import Estimates, warm_up
+    from app.analysis.library import Library
+    from app.server.server import Server
+    from app.server.session import Shared
+    from app.session.reload import Reloads
 
     parameters = parameters_from(options)
     library = Library(options.paths or sample_paths(), opening_from(options).open)

@@ -1,1 +1,1 @@
-"""Files that show a recording without the app: pictures, and a page that plays offline."""
+"""Files that show a recording without the app: pictures, numbers, and a page that plays offline."""

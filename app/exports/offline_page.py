@@ -5,18 +5,18 @@ from html import escape
 
 import numpy as np
 
-from app.captions import caption
-from app.comparison import Comparison
+from app.analysis.comparison import Comparison
+from app.analysis.estimates import Estimates
+from app.analysis.library import Opened
+from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
-from app.estimates import Estimates
-from app.guarded_server import GuardedServer
-from app.library import Opened
-from app.places import Camera
+from app.exports.captions import caption
+from app.scene.camera import Camera
 from app.scene.legend import Legend, Mark
 from app.scene.legend_html import html
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
-from app.theme import dress
+from app.scene.theme import dress
 from estimator import Parameters
 from recordings import Recording
 

@@ -8,14 +8,14 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app import theme
-from app.captions import caption
+from app.analysis.estimates import Pair
+from app.analysis.library import Opened
+from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
-from app.estimates import Pair
+from app.exports.captions import caption
 from app.exports.chromium import hidden_page
-from app.guarded_server import GuardedServer
-from app.library import Opened
-from app.pictures import finished, png, side_by_side
+from app.exports.pictures import finished, png, side_by_side
+from app.scene import theme
 from app.scene.photograph import photograph
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings

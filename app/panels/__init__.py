@@ -1,1 +1,1 @@
-"""The panels of the page: one class and one file each."""
+"""Panels of the page, one class and one file each."""

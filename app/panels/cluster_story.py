@@ -4,9 +4,9 @@ import math
 from collections.abc import Callable, Sequence
 from html import escape
 
-from app.colours import css
-from app.palettes import Palette
 from app.panels.tables import Row, framed, signed, table
+from app.scene.colours import css
+from app.scene.palettes import Palette
 from estimator import ClusterResult, IcpRound, Label, Parameters
 
 _SIX_ROWS = "calc(11.55em + 6px)"  # of the table of all clusters, below its head

@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING, Self
 
 import viser
 
-from app.colours import css
-from app.comparison import A, B, Comparison
-from app.controls import show_value
+from app.analysis.comparison import A, B, Comparison
+from app.browser.controls import show_value
 from app.errors import InputError
-from app.panel import Desk, Panel, Shown
 from app.panels.differences import changes, difference_table
+from app.panels.panel import Desk, Panel, Shown
 from app.panels.tables import framed
-from app.wishes import LatestWins
+from app.scene.colours import css
+from app.session.commands import LatestWins
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import fields
 from html import escape
 
-from app.estimates import Pair
+from app.analysis.estimates import Pair
 from app.panels.tables import Row, signed, table
 from estimator import PARAMETER_INFO, Label, Metrics, Parameters
 

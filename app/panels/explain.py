@@ -5,20 +5,20 @@ from typing import TYPE_CHECKING
 
 import viser
 
-from app.controls import show_value
-from app.estimates import Pair
-from app.page_fields import sets, unfold
-from app.palettes import Palette
-from app.panel import Desk, Panel, Shown
+from app.analysis.estimates import Pair
+from app.analysis.selection import cluster_of
+from app.browser.controls import show_value
+from app.browser.fields import sets, unfold
 from app.panels.cluster_story import cluster_table, legend, story
 from app.panels.histograms import Histogram, upper_limit
+from app.panels.panel import Desk, Panel, Shown
 from app.panels.tables import framed
-from app.selection import cluster_of
-from app.wishes import LatestWins
+from app.scene.palettes import Palette
+from app.session.commands import LatestWins
 from estimator import ClusterResult, Parameters
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _FOLDER = "Explain"
 _NONE: str = "none"

@@ -5,9 +5,9 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from app.colours import css
-from app.palettes import Palette
 from app.panels.cluster_story import fills
+from app.scene.colours import css
+from app.scene.palettes import Palette
 from estimator import Label
 
 _WIDTH, _HEIGHT = 300, 98

@@ -2,8 +2,8 @@
 
 import json
 
-from app.page_script import run
-from app.panel import Desk, Panel, Shown
+from app.browser.script import run
+from app.panels.panel import Desk, Panel, Shown
 from app.scene.legend_html import html
 
 # It is no part of viser's panels, so that it stays where these are folded away.

@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING
 
 import viser
 
-from app.page_script import copy_link
-from app.panel import Desk, Panel
-from app.wishes import LatestWins
+from app.browser.script import copy_link
+from app.panels.panel import Desk, Panel
+from app.session.commands import LatestWins
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 
 @dataclass(frozen=True)

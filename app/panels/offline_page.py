@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Literal
 
 import viser
 
+from app.analysis.estimates import Estimates
+from app.analysis.library import Entry, Library, Opened
 from app.errors import InputError, UserError
-from app.estimates import Estimates
+from app.exports.file_names import safe
 from app.exports.offline_page import ExportEndedError, offline_page
-from app.file_names import safe
-from app.library import Entry, Library, Opened
-from app.panel import Desk, Panel
-from app.places import Place
+from app.panels.panel import Desk, Panel
 from app.scene.views import THREE_D
-from app.wishes import LatestWins
+from app.session.commands import LatestWins
+from app.session.links import Place
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _LOG = logging.getLogger(__name__)
 _TITLE = "Offline page"

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, Self
 
 import viser
 
-from app.mailbox import Wish
-from app.panel import Desk, Panel, Shown
-from app.wishes import ChangeParameters, ResetParameters
+from app.panels.panel import Desk, Panel, Shown
+from app.session.commands import ChangeParameters, ResetParameters
+from app.session.queue import Wish
 from estimator import PARAMETER_INFO, Parameters, method_names
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _READING = 4.0  # seconds for which a refusal is seen after the old value has come back
 _UNSET = 0

@@ -5,10 +5,10 @@ from typing import Any
 import viser
 from viser import Icon
 
-from app.controls import show_value
-from app.library import Opened
-from app.page_fields import sets_along
-from app.panel import Desk, Panel, Shown
+from app.analysis.library import Opened
+from app.browser.controls import show_value
+from app.browser.fields import sets_along
+from app.panels.panel import Desk, Panel, Shown
 from app.panels.playback_wishes import (
     STEPS,
     ChangePlayback,
@@ -18,8 +18,8 @@ from app.panels.playback_wishes import (
     speed_name,
 )
 from app.panels.timeline_strip import strip
-from app.playback_clock import SPEEDS, Playback
-from app.wishes import TogglePlay, seek, step
+from app.session.clock import SPEEDS, Playback
+from app.session.commands import TogglePlay, seek, step
 
 _JUMPS = {"Previous": -1, "Next": 1}
 

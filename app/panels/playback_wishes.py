@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, Self
 import viser
 from viser import Icon
 
-from app.mailbox import Wish
-from app.playback_clock import SPEEDS
-from app.timeline import neighbour
-from app.wishes import LatestWins, TogglePlay, seek, step
+from app.analysis.timeline import neighbour
+from app.session.clock import SPEEDS
+from app.session.commands import LatestWins, TogglePlay, seek, step
+from app.session.queue import Wish
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
 """{what a button says: frames to go}."""

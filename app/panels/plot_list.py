@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import viser
 
-from app.colours import Colour, css
-from app.evaluation import COLUMNS
-from app.palettes import Palette
-from app.survey import Survey
+from app.analysis.evaluation import COLUMNS
+from app.analysis.survey import Survey
+from app.scene.colours import Colour, css
+from app.scene.palettes import Palette
 
 _HEIGHT = 58  # pixels
 _MEANS = {

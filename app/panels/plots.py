@@ -8,19 +8,19 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.file_names import safe
-from app.library import Opened
-from app.panel import Desk, Panel, Shown
-from app.panels.plot_clicks import cursor, seek_by_clicks
+from app.analysis.library import Opened
+from app.analysis.survey import Survey
+from app.browser.plot_clicks import cursor, seek_by_clicks
+from app.exports.file_names import safe
+from app.exports.survey_csv import to_csv
+from app.panels.panel import Desk, Panel, Shown
 from app.panels.plot_list import PLOTS, PlotSpec, summary
 from app.panels.time_field import TimeField
-from app.survey import Survey
-from app.survey_csv import to_csv
-from app.wishes import LatestWins
+from app.session.commands import LatestWins
 from estimator import Parameters
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _WIDTH = 300  # pixels
 _NARROW = 900  # pixels of the scene, of which the plots would take too much

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 import viser
 from viser import Icon
 
-from app.controls import show_value
+from app.analysis.parameter_files import from_text, to_text
+from app.browser.controls import show_value
 from app.errors import InputError
-from app.panel import Desk, Panel, Shown
-from app.parameter_files import from_text, to_text
-from app.presets import Presets, preset_folder
-from app.wishes import LatestWins
+from app.panels.panel import Desk, Panel, Shown
+from app.session.commands import LatestWins
+from app.session.presets import Presets, preset_folder
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _NONE: str = "(none saved yet)"
 _AGE = 2.0  # seconds after which they are listed again

@@ -6,10 +6,10 @@ from html import escape
 
 import viser
 
-from app.controls import show_value
-from app.library import Opened
-from app.panel import Desk, Panel, Shown
-from app.wishes import OpenRecording
+from app.analysis.library import Opened
+from app.browser.controls import show_value
+from app.panels.panel import Desk, Panel, Shown
+from app.session.commands import OpenRecording
 
 
 class RecordingsPanel(Panel):

@@ -5,18 +5,18 @@ from typing import TYPE_CHECKING
 
 import viser
 
-from app import theme
-from app.captions import caption
+from app.browser.script import canvas_size
 from app.errors import InputError
-from app.file_names import safe
-from app.page_script import canvas_size
-from app.panel import Desk, Panel
-from app.pictures import finished, png, side_by_side
+from app.exports.captions import caption
+from app.exports.file_names import safe
+from app.exports.pictures import finished, png, side_by_side
+from app.panels.panel import Desk, Panel
+from app.scene import theme
 from app.scene.views import THREE_D, TOP
-from app.wishes import LatestWins
+from app.session.commands import LatestWins
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _AS_SHOWN = "As on the screen"
 _SIZES = {"1280 x 720": (1280, 720), "1600 x 900": (1600, 900), "1920 x 1080": (1920, 1080)}

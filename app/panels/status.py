@@ -7,10 +7,10 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from app.colours import Colour, css
-from app.estimates import Pair
-from app.palettes import Palette
-from app.panel import Desk, Panel, Shown
+from app.analysis.estimates import Pair
+from app.panels.panel import Desk, Panel, Shown
+from app.scene.colours import Colour, css
+from app.scene.palettes import Palette
 from estimator import Label, Parameters, SceneFlow
 
 _NOTHING = "–"

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from app.colours import Colour, css
+from app.scene.colours import Colour, css
 
 
 @dataclass(frozen=True)

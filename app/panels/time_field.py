@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import viser
 
-from app.controls import show_value
-from app.library import Opened
-from app.panel import Desk, Shown
-from app.wishes import LatestWins
+from app.analysis.library import Opened
+from app.browser.controls import show_value
+from app.panels.panel import Desk, Shown
+from app.session.commands import LatestWins
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _TYPING = 2.0  # seconds for which a typed time stays, also while the recording is played
 

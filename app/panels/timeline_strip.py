@@ -1,9 +1,9 @@
 """A slim picture of the timeline, below the frame slider."""
 
-from app.colours import css
-from app.palettes import Palette
-from app.playback_clock import Playback
-from app.timeline import Timeline
+from app.analysis.timeline import Timeline
+from app.scene.colours import css
+from app.scene.palettes import Palette
+from app.session.clock import Playback
 
 _GAP = 4  # number of the category whose colour gaps have
 _WIDTH = 1000  # of the drawing, stretched to the slider's

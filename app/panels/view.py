@@ -7,17 +7,17 @@ import numpy as np
 import viser
 from viser import Icon
 
-from app.controls import show_value
-from app.palettes import PALETTES
-from app.panel import Desk, Panel, Shown
+from app.browser.controls import show_value
+from app.panels.panel import Desk, Panel, Shown
 from app.scene.lens import Lens, aspect_of
+from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS
+from app.scene.theme import dress
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
-from app.theme import dress
-from app.wishes import CameraMoved, ChangeView, Look
+from app.session.commands import CameraMoved, ChangeView, Look
 
 if TYPE_CHECKING:
-    from app.workbench import Workbench
+    from app.session.workbench import Workbench
 
 _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
     THREE_D: "1",

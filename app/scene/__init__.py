@@ -1,1 +1,1 @@
-"""What a browser client sees in 3D, on viser's scene."""
+"""3D drawing of a recording on viser's scene: robot, sensors, clouds, flow, camera."""

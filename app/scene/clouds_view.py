@@ -7,8 +7,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.colours import Colour
-from app.palettes import Palette
+from app.scene.colours import Colour
+from app.scene.palettes import Palette
 from app.scene.stage import FIXED
 
 SOURCE_NODE = f"{FIXED}/source"

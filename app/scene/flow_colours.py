@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from app.colours import Colour
-from app.estimates import Pair
-from app.palettes import Palette, blend
+from app.analysis.estimates import Pair
+from app.scene.colours import Colour
+from app.scene.palettes import Palette, blend
 from app.scene.settings import BY_CLUSTER, BY_DIRECTION, BY_SPEED, ViewSettings
 from estimator import Label
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.colours import Colour
-from app.comparison_sides import A, B
-from app.estimates import Pair
+from app.analysis.comparison import A, B
+from app.analysis.estimates import Pair
+from app.scene.colours import Colour
 from app.scene.flow_colours import WHEEL
 from app.scene.settings import (
     BY_CLUSTER,

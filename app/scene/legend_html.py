@@ -2,7 +2,7 @@
 
 from html import escape
 
-from app.colours import Colour, css
+from app.scene.colours import Colour, css
 from app.scene.legend import Legend, Ramp
 
 

@@ -5,8 +5,8 @@ import viser
 import viser.transforms as vtf
 from numpy.typing import NDArray
 
-from app.estimates import Pair
-from app.page_script import canvas_size
+from app.analysis.estimates import Pair
+from app.browser.script import canvas_size
 from app.scene.first_view import View
 from app.scene.scene import Scene
 

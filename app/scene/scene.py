@@ -6,9 +6,9 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 
-from app.comparison_sides import A, B
-from app.estimates import Pair
-from app.places import Camera
+from app.analysis.comparison import A, B
+from app.analysis.estimates import Pair
+from app.scene.camera import Camera
 from app.scene.canvas import Canvas
 from app.scene.clouds_view import (
     FLOW_NODE,

@@ -6,10 +6,10 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.estimates import Pair
-from app.palettes import Palette
+from app.analysis.estimates import Pair
+from app.analysis.selection import points_of
+from app.scene.palettes import Palette
 from app.scene.stage import FIXED
-from app.selection import points_of
 from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"

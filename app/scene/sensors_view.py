@@ -6,8 +6,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.colours import FRUSTUM, SENSOR
-from app.palettes import Palette
+from app.scene.colours import FRUSTUM, SENSOR
+from app.scene.palettes import Palette
 from app.scene.placing import place
 from app.scene.shapes import ring_through
 from app.scene.stage import FIXED

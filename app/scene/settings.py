@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from app.palettes import PAPER, Palette, palette
+from app.scene.palettes import PAPER, Palette, palette
 
 STATIONARY, UNASSIGNED = "Stationary points", "Unassigned points"
 

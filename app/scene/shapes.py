@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from app.colours import Colour
+from app.scene.colours import Colour
 from robot_assets import Robot
 
 _DARKEST = 84  # of a colour: what is darker cannot be told from a dark background

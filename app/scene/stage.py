@@ -5,7 +5,7 @@ import viser
 import viser.transforms as vtf
 from numpy.typing import NDArray
 
-from app.palettes import Palette
+from app.scene.palettes import Palette
 
 _Lamp = viser.HemisphereLightHandle | viser.DirectionalLightHandle
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from app.evaluation import counting_pairs
+from app.analysis.evaluation import counting_pairs
 from app.study.words import span
 from estimator import MOVING_SPEED, Label, Parameters, SceneFlow, estimate_scene_flow
 from recordings import Recording

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from itertools import product
 
-from app.evaluation import COLUMNS
+from app.analysis.evaluation import COLUMNS
 from app.study.conditions import truth_frame_text
 from app.study.paper import FRAME, experiment_label
 from app.study.plan import Plan

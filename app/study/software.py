@@ -46,6 +46,6 @@ def software_digest() -> str:
         folder = Path(str(room.__file__)).parent
         for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.toml")]):
             digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
-    for name in ("evaluation.py", "study/work.py", "study/diagnosis.py", "study/words.py"):
+    for name in ("analysis/evaluation.py", "study/work.py", "study/diagnosis.py", "study/words.py"):
         digest.update((Path(str(app.__file__)).parent / name).read_bytes())
     return digest.hexdigest()

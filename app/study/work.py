@@ -10,9 +10,9 @@ from time import thread_time
 
 from threadpoolctl import threadpool_limits
 
+from app.analysis.evaluation import evaluate
+from app.analysis.notes import notes
 from app.errors import UserError
-from app.evaluation import evaluate
-from app.recording_notes import notes
 from app.study.diagnosis import what_went_wrong, why_no_flow
 from app.study.software import software_digest
 from estimator import Metrics, Parameters
@@ -54,7 +54,7 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Recorded:
-    """A recording that is there, and how it is opened (see `app.recording_flags`)."""
+    """A recording that is there, and how it is opened (see `tofscope evaluate --help`)."""
 
     path: Path
     fixed_frame: str | None = None

@@ -4,11 +4,11 @@ import time
 
 import pytest
 
-import app.estimates
-from app.estimates import Estimates
-from app.library import Library
-from app.reloads import Reloads
-from app.session import Session, Shared
+import app.analysis.estimates
+from app.analysis.estimates import Estimates
+from app.analysis.library import Library
+from app.server.session import Session, Shared
+from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_client import FakeClient
@@ -21,7 +21,7 @@ class Runs:
 
     def __init__(self, monkeypatch):
         self.parameters, self.delay, self.error = [], 0.0, None
-        real = app.estimates.estimate_pair
+        real = app.analysis.estimates.estimate_pair
 
         def run(pair, parameters):
             self.parameters.append(parameters)
@@ -30,7 +30,7 @@ class Runs:
                 raise self.error
             return real(pair, parameters)
 
-        monkeypatch.setattr(app.estimates, "estimate_pair", run)
+        monkeypatch.setattr(app.analysis.estimates, "estimate_pair", run)
 
     def __len__(self):
         return len(self.parameters)

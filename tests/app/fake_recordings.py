@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from app.library import Entry, Opened
+from app.analysis.library import Entry, Opened
 from recordings import Cloud, PairTruth, RecordedSensor
 from robot_assets import Rig, Robot, SensorModel
 

@@ -2,14 +2,14 @@
 
 from typing import Any
 
-from app.estimates import Estimates
-from app.library import Opened
-from app.outlook import Outlook
-from app.panel import Desk, Shown
-from app.playback_clock import Playback
+from app.analysis.estimates import Estimates
+from app.analysis.library import Opened
+from app.analysis.live_timeline import Outlook
+from app.analysis.surveys import Surveys
+from app.panels.panel import Desk, Shown
 from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
-from app.surveys import Surveys
+from app.session.clock import Playback
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 

@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, BrowserContext, sync_playwright
 
-from app.estimates import Estimates
-from app.library import Library
-from app.reloads import Reloads
-from app.server import Server
-from app.session import Shared
+from app.analysis.estimates import Estimates
+from app.analysis.library import Library
+from app.server.server import Server
+from app.server.session import Shared
+from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import open_recording, sample_paths
 from tests.browser.tab import Tab

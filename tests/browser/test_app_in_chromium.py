@@ -2,7 +2,7 @@ import numpy as np
 from PIL import Image
 from playwright.sync_api import BrowserContext
 
-from app.server import Server
+from app.server.server import Server
 from tests.browser.tab import Tab
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from playwright.sync_api import BrowserContext
 
-from app.server import Server
+from app.server.server import Server
 from tests.browser.tab import Tab
 
 _CAMERA = "Array.from(window.__viserMutable.camera.matrixWorld.elements)"

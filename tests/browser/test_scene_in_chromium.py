@@ -3,7 +3,7 @@ import json
 import numpy as np
 from PIL import Image
 
-from app.palettes import COLOUR_BLIND, PAPER, palette
+from app.scene.palettes import COLOUR_BLIND, PAPER, palette
 from app.scene.stage import FIXED
 from tests.browser.tab import Tab
 

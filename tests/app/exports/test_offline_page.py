@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.analysis.estimates import Estimates
+from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
-from app.estimates import Estimates
 from app.exports.offline_page import MOST_FRAMES, ExportEndedError, offline_page
-from app.guarded_server import GuardedServer
-from app.places import Camera
+from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
 from app.scene.views import THREE_D
 from estimator import Parameters

@@ -3,8 +3,8 @@ from dataclasses import replace
 
 import pytest
 
-from app.comparison import A, B, Comparison
-from app.estimates import Estimates
+from app.analysis.comparison import A, B, Comparison
+from app.analysis.estimates import Estimates
 from app.panels.compare import ComparePanel
 from app.panels.differences import changes, difference_table
 from estimator import Parameters

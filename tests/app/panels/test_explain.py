@@ -4,11 +4,11 @@ from dataclasses import replace
 import pytest
 from viser._messages import RunJavascriptMessage
 
-from app.colours import PICKED, css
-from app.estimates import Estimates
+from app.analysis.estimates import Estimates
 from app.panels.cluster_story import cluster_table, fills, story
 from app.panels.explain import ExplainPanel, PickAt, PickCluster
 from app.panels.histograms import Histogram, upper_limit
+from app.scene.colours import PICKED, css
 from app.scene.settings import ViewSettings
 from estimator import IcpRound, Label, Parameters
 from tests.app.fake_recordings import fake_opened

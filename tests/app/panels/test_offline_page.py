@@ -3,11 +3,11 @@ from typing import Any
 
 import pytest
 
+from app.analysis.estimates import Estimates
+from app.analysis.library import Entry, Opened
 from app.errors import InputError
-from app.estimates import Estimates
-from app.library import Entry, Opened
 from app.panels.offline_page import OfflinePagePanel
-from app.places import Place
+from app.session.links import Place
 from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_recordings import fake_opened, fake_recording

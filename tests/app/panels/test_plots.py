@@ -5,20 +5,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.colours import css
-from app.estimates import Estimates
-from app.evaluation import evaluate
+from app.analysis.estimates import Estimates
+from app.analysis.evaluation import evaluate
+from app.analysis.survey import Survey
 from app.panels.plot_list import summary
 from app.panels.plots import PlotsPanel, SavePlots, ShowSurvey
 from app.panels.time_field import SeekTime, TimeField
+from app.scene.colours import css
 from app.scene.settings import ViewSettings
-from app.survey import Survey
 from estimator import Parameters
 from recordings import PairTruth
+from tests.app.analysis.test_survey import filled
+from tests.app.analysis.test_surveys import until
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
 from tests.app.fake_session import desk, shown
-from tests.app.test_survey import filled
-from tests.app.test_surveys import until
 
 
 class Bench:

@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import pytest
 
-from app.estimates import Estimates
-from app.palettes import PAPER, palette
+from app.analysis.estimates import Estimates
 from app.panels.status import StatusPanel, facts, note_on
+from app.scene.palettes import PAPER, palette
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
 from tests.app.fake_session import desk, shown

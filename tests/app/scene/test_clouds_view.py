@@ -1,7 +1,7 @@
 import numpy as np
 
-from app.palettes import PAPER, palette
 from app.scene.clouds_view import CloudsView, arrows
+from app.scene.palettes import PAPER, palette
 from app.scene.stage import FIXED
 
 PALETTE = palette(PAPER, dark=False)

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.comparison_sides import A
-from app.estimates import Estimates
+from app.analysis.comparison import A
+from app.analysis.estimates import Estimates
 from app.panels.legend import LegendPanel
 from app.scene.legend import Legend, Mark, legend
 from app.scene.legend_html import html

@@ -3,10 +3,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.estimates import Estimates
-from app.palettes import COLOUR_BLIND, PAPER, palette
-from app.places import Camera
+from app.analysis.estimates import Estimates
+from app.scene.camera import Camera
 from app.scene.clouds_view import FLOW_NODE, GHOST_NODE, SOURCE_NODE, TARGET_NODE
+from app.scene.palettes import COLOUR_BLIND, PAPER, palette
 from app.scene.scene import Scene
 from app.scene.settings import (
     BY_CLUSTER,

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.estimates import Estimates
+from app.analysis.estimates import Estimates
 from app.scene.first_view import View
 from app.scene.lens import Lens
 from app.scene.settings import ViewSettings

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from app.evaluation import COLUMNS
+from app.analysis.evaluation import COLUMNS
 from app.study.further_tables import (
     ablation_table,
     metrics_table,

@@ -1,0 +1,1 @@
+"""Recordings and parameters in; pairs, flows and numbers out."""

@@ -1,0 +1,99 @@
+"""A whole recording in numbers: what was estimated at each frame, and how far it is from truth."""
+
+import numpy as np
+
+from app.analysis.estimates import Pair
+from app.analysis.evaluation import counting_pairs, pair_errors
+from estimator import Metrics, Parameters, PooledErrors
+from recordings import Recording
+
+_SUMS = len(PooledErrors().sums)
+
+
+class Survey:
+    """The numbers of every frame of one recording with one set of parameters.
+
+    It is filled by one thread, in any order, and may be read by others meanwhile.
+
+    Attributes:
+        parameters: of the estimates.
+        done: (K,) whether a frame's numbers are there.
+        moving: (K,) points with a flow.
+        empty: (K,) whether it is known that no point is placed in a frame.
+        speed: (K,) m/s, mean over the points with a flow.
+        true_speed: (K,) m/s of the moving object over the pair, 0 where it rests.
+        angle_deg: (K,) mean angle deviation of the pairs that count, degrees.
+        velocity_error: (K,) m/s, mean of the pairs that count.
+        coverage: (K,) of the pairs that count.
+        precision: (K,) of the pairs that count.
+
+    Every number is NaN where it is not there yet, or where nothing defines it.
+    """
+
+    def __init__(self, recording: Recording, parameters: Parameters) -> None:
+        size = len(recording)
+        self.parameters = parameters
+        self.done = np.arange(size) < parameters.n  # they have no pair
+        self.empty = np.zeros(size, dtype=bool)
+        self._sums = np.zeros((size, _SUMS))
+        self._counts = np.zeros(size, dtype=bool)
+        for _, k in counting_pairs(recording, parameters.n):
+            self._counts[k] = True
+        self.moving, self.speed, self.true_speed, self.angle_deg, self.velocity_error = (
+            np.full(size, np.nan) for _ in range(5)
+        )
+        self.coverage, self.precision = np.full(size, np.nan), np.full(size, np.nan)
+        self._order = coarse_to_fine(size)
+        self._at = 0
+
+    def __len__(self) -> int:
+        return len(self.done)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every frame's numbers are there."""
+        return bool(self.done.all())
+
+    def missing(self) -> int | None:
+        """A frame whose numbers are not there yet, None where there is none."""
+        while self._at < len(self._order) and self.done[self._order[self._at]]:
+            self._at += 1
+        return self._order[self._at] if self._at < len(self._order) else None
+
+    def put(self, k: int, pair: Pair | None) -> None:
+        """Take the numbers of frame `k` from its pair; None where the recording is broken there."""
+        if pair is not None and pair.source is not None:
+            self.empty[k] = len(pair.target.points) == 0
+            self.empty[k - self.parameters.n] = len(pair.source.points) == 0
+        if pair is not None and pair.flow is not None:
+            moving = pair.flow.moving
+            self.moving[k] = np.count_nonzero(moving)
+            if moving.any():
+                self.speed[k] = np.linalg.norm(pair.flow.velocity[moving], axis=1).mean()
+            if pair.truth is not None:
+                velocity = pair.object_velocity
+                self.true_speed[k] = 0.0 if velocity is None else np.linalg.norm(velocity)
+                counts = bool(self._counts[k])
+                errors = pair_errors(pair.flow, pair.interval, pair.truth, counts=counts)
+                self._put_errors(k, errors)
+        self.done[k] = True
+
+    def summary(self) -> Metrics:
+        """The errors pooled over the pairs, as `evaluate` does it."""
+        errors = PooledErrors()
+        for sums in self._sums:
+            errors.include(sums)
+        return errors.metrics()
+
+    def _put_errors(self, k: int, errors: PooledErrors) -> None:
+        self._sums[k] = errors.sums
+        metrics = errors.metrics()
+        self.angle_deg[k] = metrics.angle_deg
+        self.velocity_error[k] = metrics.velocity_error
+        self.coverage[k] = metrics.coverage
+        self.precision[k] = metrics.precision
+
+
+def coarse_to_fine(size: int) -> list[int]:
+    """All of `range(size)`: every 16th first, so that a plot shows its shape early."""
+    return sorted(range(size), key=lambda k: (-min(k & -k, 16) if k else -16, k))

@@ -1,0 +1,99 @@
+"""What is written into the page's fields where no person types it.
+
+HTML of viser cannot be clicked, and its plots neither. An element that carries the attributes of
+`sets` or `sets_along` hands a click on to a number field, a slider or a dropdown of the page, as
+if a person had entered it there. A number that is left empty comes back, and a field gives up the
+focus once a person is done with it.
+"""
+
+import viser
+
+from app.browser.script import run
+
+_SCRIPT = """
+if (!window.tofscopeSet) {
+  const type = (input, text) => {
+    Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, 'value').set.call(input, text);
+    input.dispatchEvent(new Event('input', {bubbles: true}));
+    input.dispatchEvent(new Event('focusout', {bubbles: true}));
+  };
+  const choose = (field, value, tries) => {  // its options are there a moment after it is opened
+    const list = document.getElementById(field.getAttribute('aria-controls'));
+    const options = list ? [...list.querySelectorAll('[role=option]')] : [];
+    const wanted = options.find(option => option.textContent === value);
+    if (wanted) wanted.click();
+    else if (tries > 0) setTimeout(() => choose(field, value, tries - 1), 30);
+  };
+  window.tofscopeSet = (id, value) => {
+    const field = document.getElementById(id);
+    if (!field) return;
+    if (field.getAttribute('aria-haspopup') === 'listbox') {
+      field.click();
+      choose(field, value, 20);
+      return;
+    }
+    const number = 'input:not([type=hidden])';
+    type(field.matches(number) ? field : field.parentElement.querySelector(number), value);
+  };
+  window.tofscopeUnfold = name => {
+    for (const arrow of document.querySelectorAll('svg.tabler-icon-chevron-down')) {
+      const label = arrow.parentElement;
+      if (label.textContent !== name) continue;
+      label.click();
+      setTimeout(() => label.scrollIntoView({behavior: 'smooth'}), 300);  // once it is unfolded
+    }
+  };
+  window.tofscopeAlong = (event, element, start, end) => {
+    const box = element.getBoundingClientRect();
+    const share = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1);
+    return start + (end - start) * share;
+  };
+  document.addEventListener('click', event => {
+    const element = event.target.closest('[data-sets]');
+    if (!element) return;
+    const {sets, value, end} = element.dataset;
+    const along = () => Math.round(window.tofscopeAlong(event, element, 0, Number(end))).toString();
+    window.tofscopeSet(sets, value ?? along());
+  });
+  // A field that keeps the focus keeps the keys, which people mean for playback.
+  const leave = () => setTimeout(() => document.activeElement?.blur(), 0);
+  document.addEventListener('click', event => {
+    if (event.target.closest('[role=option]')) leave();
+  });
+  document.addEventListener('keydown', event => {
+    if (event.key === 'Enter' && event.target.matches('input')) leave();
+  });
+  const number = target => target.matches('input.mantine-NumberInput-input');
+  document.addEventListener('focusin', ({target}) => {
+    if (number(target)) target.dataset.before = target.value;
+  });
+  document.addEventListener('focusout', ({target}) => {
+    if (number(target) && target.value === '') type(target, target.dataset.before);
+  });
+}
+"""
+
+
+def set_up_fields(client: viser.ClientHandle) -> None:
+    """Let the page do so from now on."""
+    run(client, _SCRIPT)
+
+
+def unfold(client: viser.ClientHandle, folder: str) -> None:
+    """Open a folder of the page by its name and bring it into view, where it is closed."""
+    run(client, f"window.tofscopeUnfold({folder!r})")
+
+
+def sets(control: viser.GuiInputHandle, value: str) -> str:
+    """Attributes of an element on which a click sets a control to a value.
+
+    Args:
+        control: a dropdown that has this option, or a number field.
+        value: as the control shows it; without quotes.
+    """
+    return f'data-sets="{control._impl.uuid}" data-value="{value}"'
+
+
+def sets_along(control: viser.GuiInputHandle, end: int) -> str:
+    """Attributes of an element along which a click sets a slider, whole numbers from 0 to `end`."""
+    return f'data-sets="{control._impl.uuid}" data-end="{end}"'

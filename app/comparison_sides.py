@@ -1,3 +1,0 @@
-"""The names of two sets of parameters that are compared."""
-
-A, B = "A", "B"

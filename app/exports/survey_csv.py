@@ -1,0 +1,49 @@
+"""A survey as a CSV file."""
+
+import csv
+import io
+from dataclasses import asdict
+
+import numpy as np
+
+from app.analysis.survey import Survey
+from recordings import Recording
+
+
+def to_csv(recording: Recording, survey: Survey) -> str:
+    """A line that says what it is, a line of names with their units, and a line per frame.
+
+    What is not defined is left empty.
+    """
+    stamps = recording.stamps
+    columns = {
+        "stamp [s]": [f"{stamp:.9f}" for stamp in stamps],
+        "time [s]": _texts(stamps - stamps[0], ".6f"),
+        "moving points [count]": _texts(survey.moving, ".0f"),
+        "speed estimated [m/s]": _texts(survey.speed, ".6g"),
+        "speed true [m/s]": _texts(survey.true_speed, ".6g"),
+        "angle deviation [deg]": _texts(survey.angle_deg, ".6g"),
+        "velocity error [m/s]": _texts(survey.velocity_error, ".6g"),
+        "coverage [1]": _texts(survey.coverage, ".6g"),
+        "precision [1]": _texts(survey.precision, ".6g"),
+    }
+    text = io.StringIO()
+    text.write(f"# {_heading(recording, survey)}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["frame", *columns])
+    writer.writerows(zip(range(len(survey)), *columns.values(), strict=True))
+    return text.getvalue()
+
+
+def _heading(recording: Recording, survey: Survey) -> str:
+    parameters = "; ".join(f"{name}={value}" for name, value in asdict(survey.parameters).items())
+    origin = "simulated" if recording.simulated else "measured"
+    name = " ".join(recording.path.name.split())  # a line of its own, whatever a file is called
+    said = f"Tofscope; recording {name}; {origin}; {parameters}"
+    if not survey.complete:
+        said += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"
+    return said
+
+
+def _texts(values: np.ndarray, form: str) -> list[str]:
+    return [format(value, form) if np.isfinite(value) else "" for value in values]

@@ -1,0 +1,151 @@
+"""Sets of colours: as in the paper, or such that colour-blind readers can tell them apart."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.analysis.comparison import A
+from app.scene.colours import FLOW, FRUSTUM, PICKED, SOURCE, TARGET, TRUTH, Colour
+
+PAPER, COLOUR_BLIND = "As in the paper", "Colour-blind safe"
+PALETTES = (PAPER, COLOUR_BLIND)
+"""What can be chosen, in the order in which it is listed."""
+
+
+@dataclass(frozen=True)
+class Palette:
+    """The colours of one drawing.
+
+    Attributes:
+        source: of points that move, and of all source points where nothing was estimated.
+        stationary: of source points that rest.
+        unassigned: of source points of which nothing is known.
+        target: of the target.
+        flow: of arrows, and of the frustum of a sensor that sees something moving.
+        second: of the arrows of B where A and B are drawn together; those of A are as `flow`.
+        picked: of the picked cluster.
+        truth: of the truth's arrow.
+        ghost: of the place where the truth says that a source point is now.
+        frustum: of the sensors that see nothing moving.
+        grid: of the grid's thin lines and of its thick ones.
+        categories: for things of which there may be several, such as clusters.
+        ramp: from little to much.
+        light: how bright the lamps are, 1 for full light; too much of it makes colours pale.
+    """
+
+    source: Colour
+    stationary: Colour
+    unassigned: Colour
+    target: Colour
+    flow: Colour
+    second: Colour
+    picked: Colour
+    truth: Colour
+    ghost: Colour
+    frustum: Colour
+    grid: tuple[Colour, Colour]
+    categories: tuple[Colour, ...]
+    ramp: tuple[Colour, ...]
+    light: float
+
+    def side(self, name: str) -> Colour:
+        """The colour of the flow of A or of B where both are drawn."""
+        return self.flow if name == A else self.second
+
+    def category(self, index: int) -> Colour:
+        """The colour of thing number `index`; they repeat."""
+        return self.categories[index % len(self.categories)]
+
+    def along_ramp(self, parts: NDArray[np.float64]) -> NDArray[np.uint8]:
+        """Colours (N, 3) at parts (N,) of the ramp, 0 to 1."""
+        return blend(self.ramp, parts)
+
+
+def blend(stops: tuple[Colour, ...], parts: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Colours (N, 3) at parts (N,), 0 to 1, of a way through evenly spaced stops."""
+    where = np.linspace(0.0, 1.0, len(stops))
+    channels = [np.interp(parts, where, [stop[i] for stop in stops]) for i in range(3)]
+    return np.stack(channels, axis=-1).round().astype(np.uint8)
+
+
+_LIGHT_GRID = ((228, 231, 236), (200, 205, 214))
+_DARK_GRID = ((42, 45, 51), (66, 71, 80))
+
+# Hues of the set that Okabe and Ito made for colour-blind readers, as are those of the second set.
+_CATEGORIES = (
+    (0, 114, 178),
+    (230, 159, 0),
+    (0, 158, 115),
+    (204, 121, 167),
+    (213, 94, 0),
+    (86, 180, 233),
+    (120, 94, 50),
+)
+# From dark to bright in steps that look even; on white it ends before it becomes too bright.
+_RAMP = ((62, 30, 120), (52, 94, 160), (22, 140, 130), (90, 180, 60), (225, 190, 20))
+_BRIGHT_RAMP = ((110, 80, 200), (70, 130, 210), (40, 180, 165), (130, 215, 90), (253, 225, 60))
+
+_PAPER_LIGHT = Palette(
+    source=SOURCE,
+    stationary=(236, 164, 160),
+    unassigned=(158, 162, 170),
+    target=TARGET,
+    flow=FLOW,
+    second=(130, 50, 200),
+    picked=PICKED,
+    truth=TRUTH,
+    ghost=(248, 178, 92),
+    frustum=FRUSTUM,
+    grid=_LIGHT_GRID,
+    categories=_CATEGORIES,
+    ramp=_RAMP,
+    light=1.0,
+)
+_PAPER_DARK = Palette(
+    source=(255, 82, 76),
+    stationary=(140, 66, 64),
+    unassigned=(98, 102, 110),
+    target=(84, 150, 255),
+    flow=(60, 205, 100),
+    second=(185, 120, 255),
+    picked=(255, 80, 190),
+    truth=(255, 160, 40),
+    ghost=(170, 110, 40),
+    frustum=(150, 90, 90),
+    grid=_DARK_GRID,
+    categories=_CATEGORIES,
+    ramp=_BRIGHT_RAMP,
+    light=0.65,
+)
+_ALL = {
+    (PAPER, False): _PAPER_LIGHT,
+    (PAPER, True): _PAPER_DARK,
+    (COLOUR_BLIND, False): replace(
+        _PAPER_LIGHT,
+        source=(213, 94, 0),
+        stationary=(240, 190, 150),
+        target=(0, 114, 178),
+        flow=(0, 138, 100),
+        second=(95, 60, 20),
+        truth=(170, 70, 130),
+        ghost=(222, 170, 202),
+        frustum=(160, 140, 130),
+    ),
+    (COLOUR_BLIND, True): replace(
+        _PAPER_DARK,
+        source=(255, 140, 50),
+        stationary=(140, 84, 44),
+        target=(86, 180, 233),
+        flow=(40, 205, 155),
+        second=(240, 228, 66),
+        truth=(225, 140, 190),
+        ghost=(140, 84, 120),
+        frustum=(130, 112, 100),
+    ),
+}
+
+
+def palette(name: str, dark: bool) -> Palette:
+    """The palette of this name, for a dark page or a light one."""
+    return _ALL[name, dark]

@@ -1,0 +1,106 @@
+"""The web server: one session for each browser client."""
+
+import socket
+import warnings
+
+import viser
+
+from app.browser.guarded_server import GuardedServer
+from app.errors import InputError
+from app.panels.page import TITLE
+from app.scene.theme import dress
+from app.server.memory_release import MemoryRelease
+from app.server.session import Session, Shared
+
+_PANEL_WIDTH = 360  # pixels
+_ANY = {"0.0.0.0": "127.0.0.1", "::": "::1", "": "127.0.0.1"}
+"""{address that stands for all of this machine: the one that browsers on it use}."""
+
+
+class Server:
+    """Serves sessions until it is closed.
+
+    Args:
+        shared: what sessions share.
+        host: address to listen at.
+        port: port to listen at, 0 for any that is free.
+
+    Raises:
+        InputError: the port is in use, or there is no such address on this machine.
+    """
+
+    def __init__(self, shared: Shared, host: str, port: int) -> None:
+        _check_free(host, port)
+        # A client may leave while its session is drawing: nobody misses what is not delivered.
+        warnings.filterwarnings("ignore", message=r"Queued a .* on a closed connection")
+        self._sessions: dict[int, Session] = {}
+        self._memory = MemoryRelease()
+        self._server = GuardedServer(host, port, label=TITLE)
+        self.host, self.port = host, self._server.get_port()
+        dress(self._server.gui, dark=False)
+        self._server.gui.main_panel.dock_right()
+        self._server.gui.main_panel.set_width(_PANEL_WIDTH)
+
+        # Coroutines run in viser's event loop, one after the other, so that a client's end can
+        # never overtake its beginning.
+        @self._server.on_client_connect
+        async def _(client: viser.ClientHandle) -> None:
+            self._sessions[client.client_id] = Session(client, shared)
+
+        @self._server.on_client_disconnect
+        async def _(client: viser.ClientHandle) -> None:
+            if session := self._sessions.pop(client.client_id, None):
+                session.close()
+                self._memory.soon()
+
+    @property
+    def address(self) -> str:
+        """Where a browser on this machine finds the page."""
+        return self._address(_ANY.get(self.host, self.host))
+
+    @property
+    def address_for_others(self) -> str:
+        """Where a browser on another machine finds the page, as far as this one knows its name."""
+        return self._address(_own_address(self.host) if self.host in _ANY else self.host)
+
+    def _address(self, host: str) -> str:
+        return f"http://[{host}]:{self.port}" if ":" in host else f"http://{host}:{self.port}"
+
+    def close(self) -> None:
+        """End all sessions and free the port."""
+        sessions = list(self._sessions.values())
+        for session in sessions:
+            session.close()
+        for session in sessions:
+            session.join(timeout=5.0)
+        self._memory.close()
+        self._server.stop()
+
+
+def _own_address(host: str) -> str:
+    """The address from which this machine would reach others, or its name where it has none."""
+    version_6 = host == "::"
+    family = socket.AF_INET6 if version_6 else socket.AF_INET
+    try:
+        with socket.socket(family, socket.SOCK_DGRAM) as probe:
+            # An address for documents. To connect a datagram's socket sends nothing.
+            probe.connect(("2001:db8::1" if version_6 else "192.0.2.1", 9))
+            return str(probe.getsockname()[0])
+    except OSError:
+        return socket.gethostname()
+
+
+def _check_free(host: str, port: int) -> None:
+    """Raise InputError where the port cannot be had; viser would quietly take another one."""
+    try:
+        family, kind, protocol, _, address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        with socket.socket(family, kind, protocol) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(address)
+    except OSError as error:
+        raise InputError(
+            f"Nothing can be served at {host}, port {port} ({error.strerror}); "
+            f"choose another with --host and --port."
+        ) from error

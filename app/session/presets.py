@@ -1,0 +1,79 @@
+"""Parameters under names, as files in the user's own folder."""
+
+import os
+import re
+from pathlib import Path
+
+from app.analysis.parameter_files import load, to_text
+from app.errors import InputError
+from estimator import Parameters
+
+# Letters, digits and what stands between them: no path can be made of it, and no hidden file.
+_NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
+
+
+def preset_folder() -> Path:
+    """Where the user's presets are: $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
+    home = os.environ.get("XDG_CONFIG_HOME", "")
+    base = Path(home) if Path(home).is_absolute() else Path.home() / ".config"
+    return base / "tofscope" / "presets"
+
+
+class Presets:
+    """Named parameters, a JSON file each that --parameters takes too.
+
+    Args:
+        folder: made where it is needed.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    def names(self) -> list[str]:
+        """All names, in their order."""
+        found = (path.stem for path in self._folder.glob("*.json"))
+        return sorted((name for name in found if _NAME.fullmatch(name)), key=str.casefold)
+
+    def load(self, name: str) -> Parameters:
+        """The parameters under a name.
+
+        Raises:
+            InputError: there is no such name, or its file is broken.
+        """
+        return load(self._path(name))
+
+    def save(self, name: str, parameters: Parameters) -> None:
+        """Keep parameters under a name, in place of those that may be there.
+
+        Raises:
+            InputError: the name or the folder cannot be used.
+        """
+        path = self._path(name)
+        # Who reads at the same time finds the old file or the new one, and never half of it.
+        unfinished = path.with_name(f".{path.name}.{os.getpid()}")
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            unfinished.write_text(to_text(parameters), encoding="utf-8")
+            unfinished.replace(path)
+        except OSError as error:
+            raise InputError(f"The preset cannot be saved at {path} ({error.strerror}).") from error
+
+    def delete(self, name: str) -> None:
+        """Forget a name.
+
+        Raises:
+            InputError: its file cannot be deleted.
+        """
+        path = self._path(name)
+        try:
+            path.unlink(missing_ok=True)
+        except OSError as error:
+            raise InputError(f"{path} cannot be deleted ({error.strerror}).") from error
+
+    def _path(self, name: str) -> Path:
+        if not _NAME.fullmatch(name):
+            raise InputError(
+                "A preset's name is made of letters, digits, spaces, dots, dashes and underscores, "
+                f"50 of them at most, and begins with a letter or digit; got {name[:60]!r}."
+            )
+        return self._folder / f"{name}.json"

@@ -1,0 +1,132 @@
+import numpy as np
+import pytest
+
+import app.analysis.estimates
+import estimator.clustering
+import estimator.rounds
+from app.analysis.estimates import Estimates, warm_up
+from estimator import Label, Parameters
+from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
+
+MOVING = 100  # points of the moving patch, the last of the cloud
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """How many times the estimator ran."""
+    runs = []
+    real = app.analysis.estimates.estimate_pair
+
+    def count(*arguments):
+        runs.append(arguments)
+        return real(*arguments)
+
+    monkeypatch.setattr(app.analysis.estimates, "estimate_pair", count)
+    return runs
+
+
+def test_the_moving_patch_gets_its_velocity():
+    pair = Estimates().estimated(fake_opened(), 20, Parameters())
+    assert pair.flow is not None
+    assert pair.interval == pytest.approx(8 * PERIOD)
+    assert (pair.flow.label[-MOVING:] == Label.MOVING).all()
+    assert (pair.flow.label[:-MOVING] == Label.STATIONARY).all()
+    np.testing.assert_allclose(pair.flow.velocity[-MOVING:], np.tile(SPEED, (MOVING, 1)), atol=1e-3)
+    assert pair.milliseconds > 0
+    assert pair.errors is not None
+    assert pair.errors.angle_deg == pytest.approx(0, abs=0.1)
+    assert pair.errors.coverage == 1
+    assert pair.object_velocity == pytest.approx(SPEED)
+
+
+def test_before_the_start_there_is_no_source_and_no_estimate(counted):
+    pair = Estimates().estimated(fake_opened(), 7, Parameters(n=8))
+    assert pair.source is None
+    assert pair.flow is None
+    assert pair.errors is None
+    assert len(pair.target.points) == 500
+    assert counted == []
+
+
+def test_the_same_question_is_answered_from_memory(counted):
+    estimates, opened = Estimates(), fake_opened()
+    first = estimates.estimated(opened, 20, Parameters())
+    assert estimates.estimated(opened, 20, Parameters()) is first
+    assert len(counted) == 1
+    estimates.estimated(opened, 20, Parameters(delta=0.05))
+    assert len(counted) == 2
+
+
+def test_clouds_are_shared_by_pairs_and_by_parameters():
+    estimates, opened = Estimates(), fake_opened()
+    a = estimates.estimated(opened, 20, Parameters(n=8))
+    b = estimates.estimated(opened, 20, Parameters(n=5))
+    c = estimates.estimated(opened, 12, Parameters(n=5))
+    assert b.target is a.target
+    assert b.source is not a.source
+    assert c.target is a.source
+
+
+def test_memory_is_bounded(counted):
+    estimates, opened = Estimates(clouds=4, flows=2), fake_opened()
+    for k in (20, 21, 22, 20):
+        estimates.estimated(opened, k, Parameters())
+    assert len(counted) == 4
+
+
+def test_a_resting_object_has_no_velocity_and_no_errors():
+    fake = fake_recording()
+    fake.pair_truth = lambda *_: type(fake_recording().pair_truth(0, 8))(
+        np.zeros((500, 3)), np.zeros((500, 3))
+    )
+    pair = Estimates().estimated(fake_opened(fake), 20, Parameters())
+    assert pair.truth is not None
+    assert pair.object_velocity is None
+    assert pair.errors is None
+
+
+def test_without_truth_there_are_no_errors():
+    fake = fake_recording()
+    fake.pair_truth = lambda *_: None
+    pair = Estimates().estimated(fake_opened(fake), 20, Parameters())
+    assert pair.errors is None
+    assert pair.object_velocity is None
+    assert pair.truly_moving.all()
+
+
+def test_warming_up_estimates_once(counted):
+    warm_up()
+    assert len(counted) == 1
+
+
+def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatch):
+    read, ran = [], []
+    fake = fake_recording()
+    for name in ("cloud", "pair_truth", "link_poses"):
+        real = getattr(fake, name)
+        setattr(fake, name, lambda *a, real=real: read.append(a) or real(*a))
+    for module, name in ((estimator.clustering, "HDBSCAN"), (estimator.rounds, "register")):
+        real = getattr(module, name)
+        monkeypatch.setattr(module, name, lambda *a, real=real, **k: ran.append(a) or real(*a, **k))
+    estimates, opened = Estimates(), fake_opened(fake)
+    estimates.estimated(opened, 20, Parameters(delta=0.05))
+    assert read
+    assert ran
+    read.clear()
+    ran.clear()
+    for parameters in (Parameters(delta=0.01), Parameters(gamma=0.3), Parameters(n_min=90)):
+        pair = estimates.estimated(opened, 20, parameters)
+        assert pair.anything_moves
+    assert estimates.estimated(opened, 20, Parameters(delta=1.0)).anything_moves is False
+    assert read == ran == []
+
+
+def test_what_is_remembered_of_pairs_is_bounded(monkeypatch):
+    runs, real = [], estimator.clustering.HDBSCAN
+    monkeypatch.setattr(
+        estimator.clustering, "HDBSCAN", lambda *a, **k: runs.append(k) or real(*a, **k)
+    )
+    estimates, opened = Estimates(pairs=2), fake_opened()
+    for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
+        estimates.estimated(opened, k, Parameters(delta=delta))
+    assert len(runs) == 4

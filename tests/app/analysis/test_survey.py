@@ -1,0 +1,145 @@
+from dataclasses import astuple, replace
+
+import numpy as np
+import pytest
+
+from app.analysis.estimates import Estimates
+from app.analysis.evaluation import evaluate
+from app.analysis.survey import Survey, coarse_to_fine
+from estimator import Parameters
+from recordings import PairTruth, RecordingError, open_recording, sample_paths
+from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
+
+
+def filled(opened, parameters, estimates=None):
+    estimates = estimates or Estimates()
+    survey = Survey(opened.recording, parameters)
+    while (k := survey.missing()) is not None:
+        survey.put(k, estimates.estimated(opened, k, parameters))
+    return survey
+
+
+def test_every_frame_of_a_patch_that_moves():
+    survey = filled(fake_opened(), Parameters())
+    assert survey.complete
+    for values in (survey.moving, survey.speed, survey.angle_deg, survey.coverage):
+        assert np.isnan(values[:8]).all()
+    assert (survey.moving[8:] == 100).all()
+    np.testing.assert_allclose(survey.speed[8:], 0.15, atol=1e-3)
+    np.testing.assert_allclose(survey.true_speed[8:], 0.15)
+    np.testing.assert_allclose(survey.angle_deg[8:], 0, atol=0.1)
+    np.testing.assert_allclose(survey.velocity_error[8:], 0, atol=1e-3)
+    assert (survey.coverage[8:] == 1).all()
+    assert (survey.precision[8:] == 1).all()
+
+
+@pytest.mark.parametrize("parameters", [Parameters(), Parameters(n=5, gamma=0.6)])
+def test_the_summary_is_what_evaluate_says_to_the_last_bit(parameters):
+    path = next(path for path in sample_paths() if "robot_moving" in path.name)
+    with open_recording(path) as recording:
+        survey = filled(fake_opened(recording), parameters)
+        assert survey.summary() == evaluate(recording, parameters)
+        assert survey.summary().points_with_flow > 100
+
+
+def test_no_flow_leaves_gaps_and_no_coverage():
+    survey = filled(fake_opened(), Parameters(delta=0.5))
+    assert (survey.moving[8:] == 0).all()
+    assert np.isnan(survey.speed).all()
+    assert np.isnan(survey.angle_deg).all()
+    assert np.isnan(survey.precision).all()
+    assert (survey.coverage[8:] == 0).all()
+
+
+def test_pairs_that_do_not_count_have_no_errors_but_a_flow():
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
+    survey = filled(fake_opened(fake), Parameters())
+    assert np.isnan(survey.angle_deg[:28]).all()
+    assert np.isfinite(survey.angle_deg[28:]).all()
+    assert np.isfinite(survey.speed[8:]).all()
+    assert survey.summary().pairs == FRAMES - 28
+
+
+def test_where_nothing_ever_moves_the_false_flow_is_known_alone():
+    fake = fake_recording()
+    fake.truth = lambda _: np.zeros(3)
+    fake.pair_truth = lambda *_: PairTruth(np.zeros((500, 3)), np.zeros((500, 3)))
+    survey = filled(fake_opened(fake), Parameters())
+    metrics = evaluate(fake, Parameters())
+    assert metrics is not None
+    assert astuple(survey.summary()) == pytest.approx(astuple(metrics), nan_ok=True)
+    assert metrics.pairs == 0
+    assert metrics.false_flow == 100 / 500
+    assert np.isnan([metrics.angle_deg, metrics.epe3d, metrics.dynamic_iou]).all()
+
+
+def test_pairs_that_do_not_count_can_be_left_out():
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 30 else np.array([0.0, 0.15, 0.0])
+    asked = []
+    clouds = fake.cloud
+    fake.cloud = lambda k, far: asked.append(k) or clouds(k, far)
+    metrics = evaluate(fake, Parameters(), with_resting=False)
+    assert sorted(asked) == [*range(30, 32), *range(38, 40)]
+    whole = evaluate(fake, Parameters())
+    assert metrics is not None
+    assert whole is not None
+    assert np.isnan(metrics.false_flow)
+    assert whole.false_flow == 0
+    assert replace(metrics, false_flow=0.0) == whole
+
+
+@pytest.mark.parametrize(("broken", "counts"), [(3, False), (33, True)])
+def test_a_broken_frame_costs_the_errors_only_where_the_object_moves(broken: int, counts: bool):
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
+    whole = evaluate(fake, Parameters())
+    clouds = fake.cloud
+
+    def cloud(k, far):
+        if k == broken:
+            raise RecordingError("It is broken there.")
+        return clouds(k, far)
+
+    fake.cloud = cloud
+    if counts:
+        with pytest.raises(RecordingError):
+            evaluate(fake, Parameters())
+    else:
+        assert evaluate(fake, Parameters()) == whole
+
+
+def test_an_object_at_rest_has_a_true_speed_of_zero():
+    fake = fake_recording()
+    fake.pair_truth = lambda *_: PairTruth(np.zeros((500, 3)), np.zeros((500, 3)))
+    assert (filled(fake_opened(fake), Parameters()).true_speed[8:] == 0).all()
+
+
+def test_without_truth_there_is_a_flow_alone():
+    fake = fake_recording()
+    fake.truth = lambda _: None
+    fake.pair_truth = lambda *_: None
+    survey = filled(fake_opened(fake), Parameters())
+    assert (survey.moving[8:] == 100).all()
+    assert np.isnan(survey.true_speed).all()
+    assert np.isnan(survey.coverage).all()
+    assert survey.summary().pairs == 0
+
+
+def test_a_broken_frame_is_done_and_empty():
+    survey = Survey(fake_recording(), Parameters())
+    k = survey.missing()
+    assert k is not None
+    survey.put(k, None)
+    assert survey.done[k]
+    assert np.isnan(survey.moving[k])
+    assert survey.missing() != k
+
+
+@pytest.mark.parametrize("size", [1, 2, 16, 17, 100])
+def test_the_order_is_every_frame_once_and_the_shape_first(size):
+    order = coarse_to_fine(size)
+    assert sorted(order) == list(range(size))
+    coarse = len(range(0, size, 16))
+    assert order[:coarse] == list(range(0, size, 16))

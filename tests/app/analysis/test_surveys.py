@@ -1,0 +1,186 @@
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import app.analysis.estimates
+from app.analysis.estimates import Estimates
+from app.analysis.survey import Survey
+from app.analysis.surveys import Surveys
+from estimator import Parameters
+from recordings import RecordingError
+from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
+from tests.app.waiting import until
+
+
+class Listener:
+    """Keeps what it is told."""
+
+    def __init__(self):
+        self.told = []
+
+    def __call__(self, survey):
+        self.told.append((int(survey.done.sum()), survey))
+
+    @property
+    def complete(self):
+        return bool(self.told) and self.told[-1][1].complete
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """The parameters of every run of the estimator."""
+    found = []
+    real = app.analysis.estimates.estimate_pair
+
+    def run(pair, parameters):
+        found.append(parameters)
+        return real(pair, parameters)
+
+    monkeypatch.setattr(app.analysis.estimates, "estimate_pair", run)
+    return found
+
+
+def test_a_survey_is_filled_and_told(runs):
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(), Parameters(), listener)
+    until(lambda: listener.complete)
+    assert (listener.told[-1][1].moving[8:] == 100).all()
+    assert len(runs) == FRAMES - 8
+    until(lambda: surveys._thread is None)  # nothing runs where nobody asks
+
+
+def test_what_was_computed_is_not_computed_again(runs):
+    estimates, opened = Estimates(), fake_opened()
+    estimates.estimated(opened, 20, Parameters())
+    surveys, listener = Surveys(estimates), Listener()
+    surveys.ask("me", opened, Parameters(), listener)
+    until(lambda: listener.complete)
+    assert len(runs) == FRAMES - 8
+    estimates.estimated(opened, 30, Parameters())  # scrubbing
+    again = Listener()
+    surveys.ask("you", opened, Parameters(), again)
+    until(lambda: again.complete)
+    assert again.told[-1][1] is listener.told[-1][1]
+    assert len(runs) == FRAMES - 8
+
+
+def test_the_next_question_takes_the_place_of_the_last(runs):
+    estimates = Estimates()
+    surveys, first, second = Surveys(estimates), Listener(), Listener()
+    opened = fake_opened()
+    surveys.ask("me", opened, Parameters(), first)
+    until(lambda: first.told)
+    surveys.ask("me", opened, Parameters(delta=0.05), second)
+    count = len(first.told)
+    until(lambda: second.complete)
+    assert len(first.told) <= count + 1  # one may have been on its way
+    assert not first.complete
+    assert runs.count(Parameters()) < FRAMES - 8
+
+
+def test_whoever_leaves_is_told_nothing_more():
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(), Parameters(), listener)
+    until(lambda: listener.told)
+    surveys.leave("me")
+    until(lambda: surveys._thread is None)
+    assert not listener.complete
+
+
+def test_two_who_ask_share_the_work(runs):
+    surveys, opened = Surveys(Estimates()), fake_opened()
+    listeners = [Listener(), Listener()]
+    for number, listener in enumerate(listeners):
+        surveys.ask(number, opened, Parameters(), listener)
+    until(lambda: all(listener.complete for listener in listeners))
+    assert len(runs) == FRAMES - 8
+
+
+def test_it_stands_back_while_somebody_waits_for_an_estimate():
+    estimates, listener = Estimates(), Listener()
+    surveys = Surveys(estimates)
+    with estimates.foreground:
+        surveys.ask("me", fake_opened(), Parameters(), listener)
+        time.sleep(0.3)
+        assert listener.told == []
+    until(lambda: listener.complete)
+
+
+def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others(monkeypatch):
+    monkeypatch.setattr("app.analysis.surveys._PATIENCE", 0.2)
+    estimates, ended = Estimates(), threading.Event()
+    surveys = Surveys(estimates)
+
+    def play():
+        while not ended.is_set():
+            with estimates.foreground:
+                time.sleep(0.05)
+
+    player = threading.Thread(target=play, daemon=True)
+    player.start()
+    found: list[Survey] = []
+    for who, n in enumerate((5, 6)):
+        surveys.ask(who, fake_opened(), Parameters(n=n), found.append)
+    try:
+        until(lambda: len({id(survey) for survey in found}) == 2)
+        first, second = {survey.parameters.n: survey for survey in found}.values()
+        until(lambda: first.done.sum() > 12)
+        assert abs(int(first.done.sum()) - int(second.done.sum())) <= 2
+    finally:
+        ended.set()
+        player.join()
+        for who in range(2):
+            surveys.leave(who)
+
+
+def test_what_is_played_fills_the_survey_without_being_computed_again(monkeypatch, runs):
+    monkeypatch.setattr("app.analysis.surveys._PATIENCE", 0.2)
+    estimates, opened, listener = Estimates(), fake_opened(), Listener()
+    played = range(20, 32)
+    for k in played:
+        estimates.estimated(opened, k, Parameters())
+    surveys = Surveys(estimates)
+    with estimates.foreground:  # never quiet
+        surveys.ask("me", opened, Parameters(), listener)
+        until(lambda: listener.told)
+        assert listener.told[0][1].done[list(played)].all()
+        assert len(runs) <= len(played) + 2
+        assert not listener.complete
+        surveys.leave("me")
+
+
+def test_a_broken_frame_is_a_gap():
+    fake = fake_recording()
+    whole = fake.cloud
+
+    def cloud(k, max_range=4.0):
+        if k == 25:
+            raise RecordingError("it is broken at frame 25.")
+        return whole(k, max_range)
+
+    fake.cloud = cloud
+    surveys, listener = Surveys(Estimates()), Listener()
+    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    until(lambda: listener.complete)
+    gaps = np.flatnonzero(np.isnan(listener.told[-1][1].moving))
+    assert gaps.tolist() == [*range(8), 25, 33]
+
+
+def test_a_recording_that_was_closed_leaves_no_gap_behind():
+    estimates, listener = Estimates(), Listener()
+    surveys, fake = Surveys(estimates), fake_recording()
+    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    until(lambda: listener.told)
+    surveys.leave("me")
+
+    def closed(*_):
+        raise ValueError("read of a closed file")
+
+    fake.cloud = closed
+    until(lambda: surveys._thread is None)
+    again = Listener()
+    surveys.ask("me", fake_opened(), Parameters(), again)
+    until(lambda: again.complete)
+    assert (again.told[-1][1].moving[8:] == 100).all()

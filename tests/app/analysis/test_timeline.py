@@ -1,0 +1,150 @@
+import itertools
+import re
+import threading
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.analysis.estimates import Estimates
+from app.analysis.library import Opened
+from app.analysis.live_timeline import Outlook
+from app.analysis.surveys import Surveys
+from app.analysis.timeline import Timeline, gaps, neighbour, stretches
+from app.panels.timeline_strip import strip
+from app.scene.colours import css
+from app.scene.palettes import PALETTES, palette
+from app.scene.settings import ViewSettings
+from app.session.clock import Playback
+from estimator import Parameters
+from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
+
+COLOURS = ViewSettings().palette
+
+
+def still_and_moving() -> Any:
+    """A recording whose truth moves in frames 5 to 9 and 20 to 29; the first 3 are nowhere."""
+    recording = fake_recording()
+    recording.truth = lambda k: SPEED if 5 <= k < 10 or 20 <= k < 30 else np.zeros(3)
+    pose = recording.T_fixed_sensor
+    recording.T_fixed_sensor = lambda k: pose(k) * (np.nan if k < 3 else 1.0)
+    return recording
+
+
+@pytest.mark.parametrize(
+    ("flags", "expected"),
+    [
+        ([], ()),
+        ([False], ()),
+        ([True], ((0, 0),)),
+        ([True, True, False, True], ((0, 1), (3, 3))),
+        ([False, True, True], ((1, 2),)),
+    ],
+)
+def test_stretches(flags, expected):
+    assert stretches(flags) == expected
+
+
+def test_a_gap_is_where_a_frame_is_missing_and_no_jitter():
+    assert gaps(np.array([0.0, 1.0, 2.0, 3.7, 4.7, 6.6, 7.6])) == (5,)
+    assert gaps(np.array([3.0])) == ()
+
+
+def test_neighbours_of_a_frame():
+    moving = ((5, 9), (20, 29))
+    assert [neighbour(moving, k, 1) for k in (0, 5, 12, 20, 33)] == [5, 20, 20, None, None]
+    assert [neighbour(moving, k, -1) for k in (0, 5, 7, 20, 33)] == [None, None, 5, 5, 20]
+
+
+def timeline(
+    opened: Opened, estimates: Estimates, parameters: Parameters | None = None
+) -> Timeline:
+    outlook = Outlook(estimates, Surveys(estimates))
+    return outlook.timeline(opened, parameters or Parameters())
+
+
+def without_truth() -> Any:
+    recording = fake_recording()
+    recording.has_truth = False
+    recording.truth = lambda _: None
+    recording.pair_truth = lambda *_: None
+    return recording
+
+
+def test_the_truth_and_the_poses_fill_the_timeline():
+    seen = timeline(fake_opened(still_and_moving()), Estimates())
+    assert seen == Timeline(FRAMES, (), ((0, 2),), ((5, 9), (20, 29)))
+
+
+def test_without_truth_the_known_estimates_do():
+    opened, estimates = fake_opened(without_truth()), Estimates()
+    assert timeline(opened, estimates).moving == ()
+    for k in (3, 10, 11):
+        estimates.estimated(opened, k, Parameters())
+    assert timeline(opened, estimates).moving == ((10, 11),)
+    assert timeline(opened, estimates, Parameters(delta=0.5)).moving == ()
+
+
+def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
+    recording = without_truth()
+    cloud = recording.cloud
+
+    def some_empty(k, max_range=4.0):
+        seen = cloud(k, max_range)
+        nothing = np.zeros(0, dtype=np.int64)
+        if k not in (2, 3, 30):
+            return seen
+        return replace(seen, points=np.zeros((0, 3)), sensor=nothing, zone=nothing)
+
+    recording.cloud = some_empty
+    opened, estimates = fake_opened(recording), Estimates(flows=4)
+    surveys = Surveys(estimates)
+    outlook, complete = Outlook(estimates, surveys), threading.Event()
+    surveys.ask(
+        "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None
+    )
+    assert complete.wait(60)
+    seen = outlook.timeline(opened, Parameters())
+    assert seen.empty == ((2, 3), (30, 30))
+    assert seen.moving == ((8, 9), (12, 29), (31, 37), (39, 39))
+    # Others ask for so many that this one is forgotten.
+    for n in range(1, 20):
+        other = threading.Event()
+        surveys.ask("you", opened, Parameters(n=30, n_min=n), lambda _, other=other: other.set())
+        assert other.wait(60)
+    assert surveys.known(opened, Parameters()) is None
+    outlook._last = None if outlook._last is None else (*outlook._last[:1], 0.0, seen)
+    assert outlook.timeline(opened, Parameters()) == seen
+
+
+def test_the_strip_names_what_it_shows_and_nothing_else():
+    drawn = strip(Timeline(40, (7,), (), ((5, 9),)), Playback(0, 39), COLOURS, "")
+    assert "moving" in drawn
+    assert "gap" in drawn
+    assert "empty" not in drawn
+    assert "empty" in strip(Timeline(40, (), ((0, 1),), ()), Playback(0, 39), COLOURS, "")
+
+
+def test_the_strip_has_the_colours_of_the_scene():
+    timeline = Timeline(40, (7,), ((0, 1),), ((5, 9),))
+    for name, dark in itertools.product(PALETTES, (False, True)):
+        colours = palette(name, dark)
+        drawn = strip(timeline, Playback(0, 39), colours, "")
+        used = {colours.flow, colours.unassigned, colours.category(4)}
+        assert set(re.findall(r"#[0-9a-f]{6}", drawn)) == {css(colour) for colour in used}
+
+
+def test_gaps_hide_nothing_of_what_moves():
+    drawn = strip(Timeline(40, (7, 8), (), ((5, 9),)), Playback(0, 39), COLOURS, "")
+    bar = r'y="(\d+)" width="([\d.]+)" height="(\d+)" fill="%s"'
+    marks = re.findall(bar % css(COLOURS.category(4)), drawn)
+    ((top, _, _),) = re.findall(bar % css(COLOURS.flow), drawn)
+    assert len(marks) == 2
+    for y, width, height in marks:
+        assert int(y) + int(height) < int(top)
+        assert float(width) < 5
+
+
+def test_the_strip_of_a_single_frame_is_drawn():
+    assert "<rect" in strip(Timeline(1, (), (), ((0, 0),)), Playback(0, 0), COLOURS, "")

@@ -1,0 +1,81 @@
+import argparse
+import json
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import pytest
+
+from app.analysis.parameter_files import from_text, to_text
+from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.errors import InputError
+from estimator import ParameterError, Parameters
+
+
+def parsed(*arguments: str) -> Parameters:
+    parser = argparse.ArgumentParser()
+    add_parameter_flags(parser)
+    return parameters_from(parser.parse_args(arguments))
+
+
+def test_without_flags_the_defaults_hold():
+    assert parsed() == Parameters()
+
+
+def test_every_field_is_a_flag_of_its_own_name():
+    values = {
+        "n": 3,
+        "gamma": 0.5,
+        "delta": 0.1,
+        "n_min": 10,
+        "method": "baseline",
+        "min_cluster_size": 12,
+        "min_samples": 4,
+        "allow_single_cluster": True,
+        "max_correspondence_distance": 0.25,
+        "max_range": 1.5,
+    }
+    assert set(values) == {field.name for field in fields(Parameters)}
+    flags: list[str] = []
+    for name, value in values.items():
+        flag = "--" + name.replace("_", "-")
+        flags += [flag] if value is True else [flag, str(value)]
+    assert parsed(*flags) == Parameters(**values)  # type: ignore[arg-type]
+    assert parsed("--no-allow-single-cluster") == Parameters()
+
+
+def test_flags_out_of_range_are_refused():
+    with pytest.raises(ParameterError, match="delta must be between 0 and 10 m, got -1"):
+        parsed("--delta", "-1")
+
+
+def test_flags_win_over_a_file(tmp_path: Path):
+    path = tmp_path / "mine.json"
+    path.write_text(to_text(Parameters(n=3, gamma=0.5)))
+    assert parsed("--parameters", str(path)) == Parameters(n=3, gamma=0.5)
+    assert parsed("--parameters", str(path), "--n", "8") == Parameters(n=8, gamma=0.5)
+
+
+def test_a_table_of_evaluate_is_parameters_too():
+    parameters = Parameters(n=2, min_samples=5)
+    table = json.dumps({"parameters": asdict(parameters), "recordings": []})
+    assert from_text(table, "table.json") == parameters
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{", "x.json is not JSON"),
+        ("[1]", "must hold parameters"),
+        ('{"gama": 1}', "names gama, which is no parameter; parameters are n, gamma"),
+        ('{"gamma": 2}', "x.json: gamma must be between 0 and 1, got 2"),
+        ('{"n": "8"}', "n must be a whole number, got '8'"),
+    ],
+)
+def test_wrong_files_are_one_sentence(text: str, said: str):
+    with pytest.raises(InputError, match=said):
+        from_text(text, "x.json")
+
+
+def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path):
+    with pytest.raises(InputError, match=r"^There is no file .*none\.json; check the spelling\.$"):
+        parsed("--parameters", str(tmp_path / "none.json"))

@@ -1,0 +1,247 @@
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.analysis.evaluation import COLUMNS
+from app.command_line import main
+from tests.conftest import REPOSITORY
+from tests.estimator.judge import judge
+from tests.recordings.foreign import ForeignFile, image
+from tests.recordings.room import Room, write_room
+
+
+def by_hand(room: Room, gate: bool) -> dict[str, float]:
+    """The paper's errors of a room, by the judge and plain loops."""
+    angles, errors = [], []
+    for k in range(8, len(room.points)):
+        source, target = room.points[k - 8], room.points[k]
+        interval = (room.stamps[k] - room.stamps[k - 8]) * 1e-9
+        _, velocity = judge(source, target, interval, gate=gate)
+        for v in velocity[np.isfinite(velocity).all(axis=1)]:
+            cosine = v @ room.velocity / (np.linalg.norm(v) * np.linalg.norm(room.velocity))
+            angles.append(np.degrees(np.arccos(np.clip(cosine, -1, 1))))
+            errors.append(np.linalg.norm(v - room.velocity))
+    return {
+        "points_with_flow": len(angles),
+        "angle_deg": float(np.mean(angles)),
+        "velocity_error": float(np.mean(errors)),
+    }
+
+
+@pytest.mark.parametrize(("method", "gate"), [("paper", True), ("baseline", False)])
+def test_errors_are_those_of_an_independent_implementation(
+    tmp_path: Path, method: str, gate: bool, capsys: pytest.CaptureFixture[str]
+):
+    room = write_room(tmp_path / "room.mcap", frames=12)
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(room.path), "--method", method, "--json", str(table)]) == 0
+    content = json.loads(table.read_text())
+    row = content["recordings"][0]
+    assert content["parameters"]["method"] == method
+    assert row["pairs"] == 4
+    assert row["coverage"] is row["precision"] is row["epe3d"] is row["scenario"] is None
+    expected = by_hand(room, gate)
+    assert row["acc_s"] is row["dynamic_iou"] is row["false_flow"] is None
+    assert expected["points_with_flow"] > 100
+    assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-6)
+    assert "room" in capsys.readouterr().out
+
+
+def by_hand_of_every_point(room: Room, **judged: Any) -> dict[str, float]:
+    """The field's metrics of a room from their definitions, point after point."""
+    listed: dict[str, list[float]] = {}
+
+    def note(name: str, value: float) -> None:
+        listed.setdefault(name, []).append(value)
+
+    for k in range(8, len(room.points)):
+        interval = (room.stamps[k] - room.stamps[k - 8]) * 1e-9
+        label, velocity = judge(room.points[k - 8], room.points[k], interval, **judged)
+        for i in range(len(label)):
+            flows = label[i] == 2
+            moves = room.on_board[k - 8][i] and k >= room.rests
+            if not moves:
+                note("false_flow", flows)
+            if k - 8 < room.rests:
+                continue  # the board rests at frame k - 8: the pair does not count
+            way = room.velocity * interval if moves else np.zeros(3)
+            found = velocity[i] * interval if flows else np.zeros(3)
+            error = float(np.sqrt(((found - way) ** 2).sum()))
+            relative = error / (float(np.sqrt((way**2).sum())) + 1e-4)
+            note("epe3d", error)
+            note("acc_s", error < 0.05 or relative < 0.05)
+            note("acc_r", error < 0.1 or relative < 0.1)
+            note("outliers", error > 0.3 or relative > 0.1)
+            if moves:
+                note("coverage", flows)
+            if flows:
+                note("precision", moves)
+            if flows or moves:
+                note("dynamic_iou", flows and moves)
+    return {name: float(np.mean(values)) for name, values in listed.items()}
+
+
+@pytest.mark.parametrize(
+    ("flags", "judged"),
+    [
+        (["--method", "paper"], {}),
+        (["--method", "baseline"], {"gate": False}),
+        (["--n-min", "130", "--delta", "0.01"], {"n_min": 130, "delta": 0.01}),
+    ],
+    ids=["the board alone is flagged", "everything is", "only the walls are"],
+)
+def test_metrics_of_points_are_those_of_an_independent_implementation(
+    tmp_path: Path, flags: list[str], judged: dict[str, Any]
+):
+    room = write_room(tmp_path / "room.mcap", frames=16, rests=4, tells_points=True)
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(room.path), *flags, "--json", str(table)]) == 0
+    row = json.loads(table.read_text())["recordings"][0]
+    expected = by_hand_of_every_point(room, **judged)
+    assert row["pairs"] == 4
+    assert {key: row[key] for key in expected} == pytest.approx(expected, rel=1e-5)
+
+
+def test_columns_stand_below_their_titles_whatever_a_recording_is_called(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    write_room(tmp_path / "room.mcap", frames=9, tells_points=True)
+    write_room(tmp_path / "a_room_with_a_rather_long_name.mcap", frames=9, tells_points=True)
+    assert main(["evaluate", str(tmp_path)]) == 0
+    *above, titles, first, second = capsys.readouterr().out.splitlines()
+    assert [titles.split()[0], *(line.split()[0] for line in (first, second))] == [
+        "recording",
+        "a_room_with_a_rather_long_name",
+        "room",
+    ]
+    ends = [[m.end() for m in re.finditer(r"\S+", line)][1:] for line in (titles, first, second)]
+    assert ends[0] == ends[1] == ends[2]
+    assert len(ends[0]) == len(COLUMNS)
+    assert any("velocity" in line for line in above)
+    assert max(map(len, above)) <= len(titles) < 140
+
+
+def test_where_nothing_moves_the_false_flow_is_known_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    room = write_room(tmp_path / "room.mcap", frames=10, rests=10, tells_points=True)
+    table = tmp_path / "table.json"
+    flags = ["--method", "baseline", "--json", str(table)]
+    assert main(["evaluate", str(room.path), *flags]) == 0
+    row = json.loads(table.read_text())["recordings"][0]
+    assert row["pairs"] == row["points_with_flow"] == 0
+    assert row["false_flow"] > 0.9
+    assert row["angle_deg"] is row["epe3d"] is row["coverage"] is row["dynamic_iou"] is None
+    assert "no pair that counts" in (said := capsys.readouterr().err)
+    assert "Only the false flow is known." in said
+
+
+def test_a_recording_without_truth_gets_a_row_of_nulls_and_a_warning(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    file = ForeignFile()
+    for k in range(3):
+        message = image(k * 66_000_000, "eye", np.full((8, 8), 900, "<u2"), "16UC1")
+        file.add("/eye/image", "sensor_msgs/msg/Image", message, k)
+    blind = file.write(tmp_path / "blind.mcap")
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(blind), "--json", str(table)]) == 1
+    row = json.loads(table.read_text())["recordings"][0]
+    assert row["path"] == str(blind)
+    assert all(value is None for key, value in row.items() if key != "path")
+    assert "blind.mcap has no truth" in capsys.readouterr().err
+
+    room = write_room(tmp_path / "room.mcap", frames=9).path
+    assert main(["evaluate", str(blind), str(room)]) == 0
+
+
+def test_a_folder_is_all_its_recordings_and_a_bad_one_does_not_stop_the_rest(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    write_room(tmp_path / "good.mcap", frames=9)
+    (tmp_path / "bad.mcap").write_bytes(b"nonsense")
+    table = tmp_path / "out" / "table.json"
+    table.parent.mkdir()
+    assert main(["evaluate", str(tmp_path), "--json", str(table)]) == 0
+    rows = json.loads(table.read_text())["recordings"]
+    assert [Path(row["path"]).stem for row in rows] == ["bad", "good"]
+    assert rows[0]["pairs"] is None
+    assert rows[1]["pairs"] == 1
+    assert "not an MCAP file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nowhere.mcap"], "There is no file or folder nowhere.mcap"),
+        ([".", "--n", "0"], "n must be between 1 and 1000 frames, got 0"),
+        ([".", "--gamma", "1.5"], "gamma must be between 0 and 1, got 1.5"),
+        ([".", "--rig", "nothing.toml"], "nothing.toml cannot be read"),
+        ([".", "--urdf", "nothing.urdf"], "nothing.urdf cannot be read"),
+        ([".", "--json", "nowhere/table.json"], "nowhere/table.json cannot be written"),
+    ],
+)
+def test_wrong_arguments_are_one_sentence(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: list[str],
+    said: str,
+):
+    write_room(tmp_path / "room.mcap", frames=2)
+    monkeypatch.chdir(tmp_path)
+    assert main(["evaluate", *arguments]) == 1
+    last = capsys.readouterr().err.strip().splitlines()[-1]
+    assert last.startswith("tofscope evaluate: ")
+    assert said in last
+
+
+def test_unknown_flags_are_one_sentence(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit) as stop:
+        main(["evaluate", ".", "--nonsense"])
+    assert stop.value.code == 2
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def documented_flights() -> dict[tuple[str, str], dict[str, float]]:
+    """{(flight, method): its line} of the table in docs/real_flights.md."""
+    lines = (REPOSITORY / "docs" / "real_flights.md").read_text(encoding="utf-8").splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("| flight | method |"))
+    titles = [cell.strip() for cell in lines[start].strip("|").split("|")]
+    found = {}
+    for line in lines[start + 2 : start + 10]:
+        flight, method, *values = (cell.strip() for cell in line.strip("|").split("|"))
+        found[flight[:2], method] = dict(zip(titles[2:], map(float, values), strict=True))
+    return found
+
+
+@pytest.mark.parametrize("method", ["paper", "baseline"])
+def test_real_flights_give_what_their_document_says(shared_data: Path, tmp_path: Path, method: str):
+    flights = sorted((shared_data / "matrix_tof_flights").glob("approach_*.mcap"))
+
+    def evaluated(frame: str, *more: str) -> list[dict[str, float]]:
+        table = tmp_path / "flights.json"
+        flags = ["--fixed-frame", frame, "--truth-frame", "surface", "--json", str(table)]
+        flags += ["--parameters", str(REPOSITORY / "docs" / "real_flights.json"), *more]
+        assert main(["evaluate", *map(str, flights), *flags]) == 0
+        return json.loads(table.read_text())["recordings"]
+
+    sensor = evaluated("tof_front_optical_frame", "--method", method)
+    world = evaluated("world", "--method", method)
+    silence = evaluated("tof_front_optical_frame", "--delta", "10")
+    documented = documented_flights()
+    for path, moving, still, silent in zip(flights, sensor, world, silence, strict=True):
+        said = documented[path.stem[-2:], method]
+        assert moving["pairs"] == said["pairs"]
+        assert still["pairs"] == 0
+        # Ties in HDBSCAN fall in another way on other processors.
+        assert moving["angle_deg"] == pytest.approx(said["angle deg"], abs=2)
+        assert moving["velocity_error"] == pytest.approx(said["velocity error m/s"], abs=0.02)
+        assert moving["coverage"] == pytest.approx(said["coverage"], abs=0.02)
+        assert moving["epe3d"] == pytest.approx(said["EPE3D m"], abs=0.003)
+        assert moving["epe3d"] / silent["epe3d"] == pytest.approx(said["motion left"], abs=0.03)
+        assert still["false_flow"] == pytest.approx(said["false flow"], abs=0.02)

@@ -1,0 +1,13 @@
+from collections import Counter
+
+from app.panels.page import Page
+from tests.app.fake_session import desk
+
+
+def test_no_two_commands_share_a_key_or_a_name(client):
+    Page(desk(client))
+    commands = list(client.gui._command_handle_from_uuid.values())
+    keys = Counter((c.modifier, c.hotkey) for c in commands if c.hotkey)
+    assert len(keys) > 15
+    assert [key for key, number in keys.items() if number > 1] == []
+    assert [n for n, count in Counter(c.label for c in commands).items() if count > 1] == []

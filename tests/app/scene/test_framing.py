@@ -1,0 +1,89 @@
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from app.scene.camera import Camera
+from app.scene.framing import Framing
+
+SOMEWHERE = Camera((5.0, 6.0, 7.0), (0.0, 0.0, 0.0), 0.7)
+PAIR = cast(Any, SimpleNamespace(target=SimpleNamespace(points=np.ones((5, 3)))))
+EMPTY = cast(Any, SimpleNamespace(target=SimpleNamespace(points=np.zeros((0, 3)))))
+
+
+class FakeScene:
+    """Puts the camera further away the narrower the picture is."""
+
+    def __init__(self):
+        self.taken: list[tuple[str, float]] = []
+        self.now = SOMEWHERE
+
+    def place_camera(self, pair, view, aspect):
+        self.taken.append((view, aspect))
+        self.now = Camera((2.0 / aspect, 0.0, 1.0), (0.0, 0.0, 0.0), 0.7)
+        return self.now
+
+    def stand(self, camera):
+        self.now = camera
+
+    def camera(self):
+        return self.now
+
+
+@pytest.fixture
+def scene():
+    return FakeScene()
+
+
+@pytest.fixture
+def window():
+    return SimpleNamespace(image_width=1200, image_height=800)
+
+
+@pytest.fixture
+def framing(scene, window):
+    return Framing(cast(Any, SimpleNamespace(camera=window)), cast(Any, scene))
+
+
+def test_a_view_is_taken_anew_when_the_picture_gets_narrower(framing, scene, window):
+    framing.begin(PAIR)
+    framing.follow(PAIR)
+    assert scene.taken == [("3D", 1.5)]
+    window.image_width = 600
+    framing.follow(PAIR)
+    assert scene.taken == [("3D", 1.5), ("3D", 0.75)]
+    framing.look(PAIR, "Top")
+    window.image_width = 1200
+    framing.follow(PAIR)
+    assert scene.taken[-2:] == [("Top", 0.75), ("Top", 1.5)]
+
+
+def test_where_there_was_nothing_to_see_the_first_view_waits_for_something(framing, scene):
+    framing.begin(EMPTY)
+    framing.seen(EMPTY)
+    assert len(scene.taken) == 1
+    framing.seen(PAIR)
+    framing.seen(PAIR)
+    assert len(scene.taken) == 2
+
+
+def test_a_camera_that_a_person_has_moved_stays(framing, scene, window):
+    framing.begin(PAIR)
+    scene.now = SOMEWHERE
+    window.image_width = 600
+    framing.follow(PAIR)
+    assert scene.now == SOMEWHERE
+
+
+def test_where_it_is_told_to_stand_it_stays_and_the_next_recording_begins_anew(
+    framing, scene, window
+):
+    framing.stand(SOMEWHERE)
+    framing.begin(PAIR)
+    window.image_width = 600
+    framing.follow(PAIR)
+    assert scene.now == SOMEWHERE
+    assert scene.taken == []
+    framing.begin(PAIR)
+    np.testing.assert_allclose(scene.now.position, (2.0 / 0.75, 0.0, 1.0))

@@ -1,0 +1,125 @@
+"""A closed tab frees everything."""
+
+import gc
+import threading
+import weakref
+from collections import Counter
+
+import pytest
+import viser
+
+from app.analysis.estimates import Estimates
+from app.analysis.library import Library
+from app.panels.page import Page
+from app.scene.scene import Scene
+from app.server.server import Server
+from app.server.session import Session, Shared
+from app.session.reload import Reloads
+from app.session.workbench import Workbench
+from estimator import Parameters
+from robot_assets import load_rig, load_robot
+from tests.app.fake_recordings import fake_recording
+from tests.app.waiting import until
+from tests.app.wire_client import WireClient
+
+OF_ONE_CLIENT = (Session, Workbench, Page, Scene, viser.ClientHandle, viser.SceneNodeHandle)
+
+# Results are shared and bounded; for a while they become more. What the last session left is kept
+# for its tab, with a comparison or, where the client left before it was made, without one.
+REMEMBERED = {
+    "app.analysis.estimates",
+    "app.analysis.cache",
+    "app.analysis.survey",
+    "app.analysis.comparison",
+}
+
+
+class Seen:
+    """Whether what was drawn has come."""
+
+    def __init__(self):
+        self.pictures = 0
+
+    def listen(self, _, message):
+        updates = message.get("updates", {})
+        self.pictures += "Moving" in str(updates.get("content", ""))
+
+
+@pytest.fixture
+def recordings():
+    return []
+
+
+@pytest.fixture
+def server(tmp_path, recordings):
+    robot, rig = load_robot(), load_rig()
+
+    def opener(path):
+        recordings.append(fake_recording(robot=robot, rig=rig, name=path.stem))
+        return recordings[-1]
+
+    for name in ("a.mcap", "b.mcap"):
+        (tmp_path / name).touch()
+    shared = Shared(Library([tmp_path], opener), Estimates(), Reloads(1), Parameters())
+    server = Server(shared, "127.0.0.1", 0)
+    yield server
+    server.close()
+
+
+def alive() -> Counter:
+    """How many objects of the app and of viser there are by type, but for what is remembered."""
+    gc.collect()
+    kinds = [(str(type(thing).__module__), type(thing).__name__) for thing in gc.get_objects()]
+    return Counter(
+        f"{module}.{name}"
+        for module, name in kinds
+        if module.startswith(("app.", "viser.")) and module not in REMEMBERED
+    )
+
+
+def of_one_client() -> list:
+    return [thing for thing in gc.get_objects() if isinstance(thing, OF_ONE_CLIENT)]
+
+
+def session_threads() -> list:
+    return [thread for thread in threading.enumerate() if thread.name == "session"]
+
+
+def visit(server: Server) -> list[weakref.ref]:
+    """Come, use the app, and go while it is playing; what was there only for this client."""
+    before = {id(thing) for thing in of_one_client()}
+    seen = Seen()
+    with WireClient(server.address, seen.listen) as client:
+        until(lambda: seen.pictures)
+        for label, value in (("δ", 0.03), ("Frame", 30), ("Recording", "b"), ("Dark", True)):
+            drawn = seen.pictures
+            client.change(label, value)
+            if label != "Dark":
+                until(lambda drawn=drawn: seen.pictures > drawn)
+        client.trigger("Compare: switch between A and B")
+        client.trigger("Play or pause")
+        until(lambda: client.value("Frame") > 20)
+        things = [thing for thing in of_one_client() if id(thing) not in before]
+        found = [weakref.ref(thing) for thing in things]
+        assert {Session, Workbench, Page, Scene, viser.ClientHandle} <= {type(t) for t in things}
+        del things
+    return found
+
+
+def test_a_closed_tab_frees_its_session_scene_handles_and_threads(server, recordings):
+    found = visit(server)
+    until(lambda: not session_threads())
+    until(lambda: gc.collect() >= 0 and not any(ref() for ref in found), timeout=30)
+    assert recordings
+    assert all(recording.closed for recording in recordings)
+
+
+def test_clients_that_come_and_go_leave_no_more_than_one_did(server):
+    left = []
+    for _ in range(3):
+        found = visit(server)
+        until(lambda: not session_threads())
+        until(lambda found=found: gc.collect() >= 0 and not any(ref() for ref in found))
+        left.append(alive())
+    # The first loads what all use; a type of which there are fewer than before is fine.
+    assert left[2] - left[1] == Counter()

@@ -1,0 +1,335 @@
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.analysis.estimates import Estimates
+from app.analysis.library import Library
+from app.scene.stage import FIXED
+from app.server.session import Session, Shared
+from app.session.commands import OpenRecording
+from app.session.reload import Reloads
+from estimator import Parameters
+from recordings import RecordingError
+from tests.app.drawn import arrow_count, points
+from tests.app.fake_client import FakeClient
+from tests.app.fake_recordings import FRAMES, fake_recording
+from tests.app.waiting import until
+
+
+def sent_nodes(client):
+    return [getattr(message, "name", None) for message in client.take_sent()]
+
+
+def test_it_begins_with_the_first_recording_in_the_middle_of_its_motion(session, client):
+    assert client.control("Recording").value == "a"
+    assert client.control("Frame").value == 24
+    assert client.control("Frame").max == FRAMES - 1
+    assert arrow_count(client) == 100
+    assert "Frame 24 of 39" in client.text()
+    assert len(points(client, "truth")) == 1
+
+
+def test_n_changes_the_source_alone(session, client):
+    source, target = points(client, "source"), points(client, "target")
+    client.take_sent()
+    client.change("n", 5)
+    until(lambda: not np.array_equal(points(client, "source"), source))
+    until(lambda: "0.333 s" in client.text())
+    assert np.array_equal(points(client, "target"), target)
+    names = sent_nodes(client)
+    assert f"{FIXED}/source" in names
+    assert f"{FIXED}/target" not in names
+    assert f"{FIXED}/frustums/front" not in names
+
+
+def test_scrubbing_changes_both_clouds(session, client):
+    source, target = points(client, "source"), points(client, "target")
+    client.change("Frame", 30)
+    until(lambda: "Frame 30 of" in client.text())
+    assert not np.array_equal(points(client, "source"), source)
+    assert not np.array_equal(points(client, "target"), target)
+
+
+def test_delta_at_its_largest_leaves_no_arrow_and_back_brings_them_again(session, client):
+    before = points(client, "flow")
+    client.change("δ", client.control("δ").max)
+    until(lambda: arrow_count(client) == 0)
+    client.change("δ", 0.04)
+    until(lambda: arrow_count(client) == 100)
+    assert np.array_equal(points(client, "flow"), before)
+
+
+def test_before_the_first_pair_it_says_so(session, client):
+    client.change("Frame", 3)
+    until(lambda: "No pair: frame k-n = -5 is before the start." in client.text())
+    assert len(points(client, "source")) == 0
+    assert arrow_count(client) == 0
+    assert len(points(client, "target")) == 500
+
+
+def test_the_view_does_not_run_the_estimator(session, client, runs):
+    count, before = len(runs), points(client, "flow")
+    client.take_sent()
+    client.change("Arrow scale", 1.0)
+    until(lambda: not np.array_equal(points(client, "flow"), before))
+    after = points(client, "flow")
+    np.testing.assert_allclose(
+        after[:, 1] - after[:, 0], 2 * (before[:, 1] - before[:, 0]), atol=1e-5
+    )
+    radius = client.node(f"{FIXED}/source").point_size
+    client.change("Point size", 10.0)
+    until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(2 * radius))
+    client.change("Robot", False)
+    until(lambda: not client.node(f"{FIXED}/robot").visible)
+    assert len(runs) == count
+    changed = {n for n in sent_nodes(client) if n}
+    assert f"{FIXED}/frustums/front" not in changed
+
+
+def test_two_hundred_changes_in_a_second_end_on_the_last_one(session, client, runs):
+    runs.delay = 0.05
+    count = len(runs)
+    values = np.linspace(0.0, 0.5, 200)
+    for value in values:
+        client.change("δ", float(value))
+        time.sleep(0.004)
+    last = time.monotonic()
+    until(lambda: runs.parameters[-1].delta == 0.5)
+    until(lambda: arrow_count(client) == 0)
+    assert time.monotonic() - last < 1.0
+    assert len(runs) - count < 60
+
+
+def test_a_value_out_of_range_is_refused_in_words_and_the_old_one_is_kept(session, client, runs):
+    count = len(runs)
+    client.change("γ", 9.0)
+    until(lambda: "gamma must be between 0 and 1, got 9.0." in client.text())
+    assert len(runs) == count
+    client.change("δ", 0.05)
+    until(lambda: runs.parameters[-1] == Parameters(delta=0.05))
+    assert client.control("γ").value == 0.7
+
+
+def test_reset_brings_the_defaults_back(session, client, runs):
+    client.change("δ", 0.3)
+    client.change("n", 4)
+    until(lambda: runs.parameters[-1] == Parameters(n=4, delta=0.3))
+    client.change("Reset", "All")
+    until(lambda: client.control("δ").value == 0.04)
+    assert client.control("n").value == 8
+
+
+def test_parameters_without_a_slider_have_fields(session, client, runs):
+    client.change("method", "baseline")
+    client.change("min samples", 5)
+    client.change("allow single cluster", True)
+    until(
+        lambda: (
+            runs.parameters[-1]
+            == Parameters(method="baseline", min_samples=5, allow_single_cluster=True)
+        )
+    )
+    client.change("min samples", 0)
+    until(lambda: runs.parameters[-1].min_samples is None)
+
+
+def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
+    before = points(client, "target")
+    client.change("Recording", "bad")
+    until(lambda: any("bad.mcap is no recording." in n for n in client.notifications))
+    until(lambda: client.control("Recording").value == "a")
+    assert np.array_equal(points(client, "target"), before)
+    client.change("Recording", "b")
+    until(lambda: session._shared.library._shared.keys() >= {session._shared.library.listing()[1]})
+    client.change("Frame", 12)
+    until(lambda: "Frame 12 of" in client.text())
+
+
+def test_only_what_is_listed_is_opened(session, client, folder):
+    (folder / "later.mcap").touch()
+    for label in ("/etc/passwd", "../a", "later"):
+        session._mailbox.post(OpenRecording(label))
+        client.change("Frame", 20 + len(label))
+        until(lambda label=label: f"Frame {20 + len(label)} of" in client.text())
+    assert [e.label for e in session._shared.library._shared] == ["a"]
+
+
+def test_an_error_of_the_estimator_is_told_and_the_clouds_are_shown(session, client, runs):
+    runs.error = RuntimeError("ICP has had enough")
+    client.change("Frame", 30)
+    until(lambda: any("ICP has had enough" in n for n in client.notifications))
+    until(lambda: "Frame 30 of" in client.text() and "No estimate." in client.text())
+    assert arrow_count(client) == 0
+    runs.error = None
+    client.change("Frame", 31)
+    until(lambda: arrow_count(client) == 100)
+
+
+def test_playback_goes_at_the_recordings_pace_and_stops_at_the_end(session, client):
+    client.change("Frame", FRAMES - 16)
+    until(lambda: f"Frame {FRAMES - 16} of" in client.text())
+    start = time.monotonic()
+    client.press("Play")
+    until(lambda: client.control("Frame").value == FRAMES - 1)
+    assert time.monotonic() - start == pytest.approx(1.0, abs=0.4)
+    until(lambda: any(h.label == "Play" for h in client.buttons()))
+
+
+def test_playback_drops_frames_rather_than_lag(session, client, runs):
+    runs.delay = 0.3
+    client.change("Frame", FRAMES - 16)
+    until(lambda: f"Frame {FRAMES - 16} of" in client.text())
+    count, start = len(runs), time.monotonic()
+    client.press("Play")
+    until(lambda: f"Frame {FRAMES - 1} of" in client.text())
+    assert time.monotonic() - start < 2.5
+    assert len(runs) - count < 8
+
+
+def test_steps_add_up(session, client):
+    client.change("Step", "+1")
+    client.change("Step", "+10")
+    until(lambda: "Frame 35 of" in client.text())
+    client.change("Step", "+10")
+    until(lambda: f"Frame {FRAMES - 1} of" in client.text())
+
+
+def test_the_end_of_a_session_gives_everything_back(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    (held,) = shared.library._shared.values()
+    recording = held.opened.recording
+    session.close()
+    session.join(10)
+    assert recording.closed
+    assert shared.library._shared == {}
+    assert "session" not in [t.name for t in threading.enumerate()]
+
+
+def test_two_clients_keep_their_own_parameters_and_share_the_recording(session, client, shared):
+    with FakeClient.on_a_server() as other_client:
+        other = Session(other_client, shared)
+        until(lambda: "Moving" in other_client.text())
+        other_client.change("δ", 0.5)
+        until(lambda: arrow_count(other_client) == 0)
+        assert client.control("δ").value == 0.04
+        assert arrow_count(client) == 100
+        assert [held.users for held in shared.library._shared.values()] == [2]
+        other.close()
+        other.join(10)
+
+
+def test_an_empty_folder_says_what_to_do(client, tmp_path):
+    (tmp_path / "empty").mkdir()
+    library = Library([tmp_path / "empty"], lambda path: fake_recording(name=path.stem))
+    session = Session(client, Shared(library, Estimates(), Reloads(), Parameters()))
+    until(lambda: "There is no recording here." in client.markdown())
+    assert str(tmp_path / "empty") in client.markdown()
+    session.close()
+    session.join(10)
+
+
+def test_a_picked_cluster_stays_picked_until_the_recording_changes(session, client, runs):
+    origin, moving = np.array([0.3, -3.0, 1.0]), points(client, "flow")[50, 0]
+    client.click(tuple(origin), tuple(moving - origin))
+    until(lambda: client.control("Cluster").value.endswith("moving"))
+    assert len(points(client, "picked/points")) == 100
+    until(lambda: "Moving: fitness 1.00 above γ 0.7" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: client.control("Cluster").value.endswith("stationary"))
+    until(lambda: "below δ 300 mm" in client.text())
+    client.change("n", 5)
+    client.change("Frame", 30)
+    until(lambda: runs.parameters[-1].n == 5 and "Frame 30 of" in client.text())
+    assert client.control("Cluster").value.endswith("stationary")
+    assert client.node(f"{FIXED}/picked").visible
+    client.click(tuple(origin), (0.0, 0.0, 1.0))
+    until(lambda: client.control("Cluster").value == "none")
+    assert not client.node(f"{FIXED}/picked").visible
+    client.change("Cluster", client.control("Cluster").options[1])
+    until(lambda: client.node(f"{FIXED}/picked").visible)
+    client.change("Recording", "b")
+    until(lambda: client.control("Cluster").value == "none")
+    assert not client.node(f"{FIXED}/picked").visible
+
+
+def test_a_bad_recording_at_the_front_does_not_keep_the_others_from_opening(client, shared, folder):
+    (folder / "0_bad.mcap").touch()
+
+    def opener(path):
+        if "bad" in path.stem:
+            raise RecordingError(f"{path.name} is no recording.")
+        return fake_recording(name=path.stem)
+
+    shared = replace(shared, library=Library([folder], opener))
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    assert client.notifications == ["0_bad.mcap is no recording."]
+    session.close()
+    session.join(10)
+
+
+def test_of_several_bad_recordings_the_first_is_told_and_the_others_are_counted(client, shared):
+    def opener(path):
+        raise RecordingError(f"{path.name} is no recording.")
+
+    library = Library([shared.library.paths[0]], opener)
+    session = Session(client, replace(shared, library=library))
+    until(lambda: client.notifications)
+    assert client.notifications == ["a.mcap is no recording. 2 more could not be opened."]
+    until(lambda: "No recording is open." in client.text())
+    session.close()
+    session.join(10)
+
+
+def test_surveys_are_everybodys_alike(shared):
+    seen, start = [], threading.Barrier(8)
+
+    def look():
+        start.wait()
+        seen.append(shared.surveys)
+
+    threads = [threading.Thread(target=look) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(surveys is shared.surveys for surveys in seen)
+    assert "surveys" in vars(shared)
+
+
+def test_the_command_palette_does_what_buttons_do(session, client):
+    client.trigger("Save screenshot")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_frame_0024.png"
+    client.trigger("Save 3D and top view")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_frame_0024_3d_top.png"
+    client.trigger("Save parameters as a file")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "parameters.json"
+    until(lambda: "Computing the whole recording: <" not in client.text())
+    client.trigger("Save plots as CSV")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a_plots.csv"
+    client.trigger("Save offline page")
+    until(lambda: client.downloads)
+    assert client.downloads.pop()[0] == "a.html"
+    client.trigger("Dark or light")
+    until(lambda: client.control("Dark").value)
+    client.trigger("Dark or light")
+    until(lambda: not client.control("Dark").value)
+    assert client.control("Legend").value
+    client.trigger("Legend")
+    until(lambda: not client.control("Legend").value)
+    client.trigger("Compare: draw both")
+    until(lambda: "There is no B to draw; copy A to B first." in client.notifications)
+    client.trigger("Compare: copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.trigger("Compare: draw both")
+    until(lambda: client.control("Draw both").value)
+    client.trigger("Compare: remove B")
+    until(lambda: "<b>B</b> is shown" not in client.text())

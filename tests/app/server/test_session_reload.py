@@ -1,0 +1,159 @@
+"""What is found again: a page that is loaded anew, and links."""
+
+import re
+
+import numpy as np
+import pytest
+from viser._messages import RunJavascriptMessage
+
+from app.scene.camera import Camera
+from app.scene.stage import FIXED
+from app.server.session import Session
+from app.session.links import Place, from_token
+from estimator import Parameters
+from tests.app.fake_client import FakeClient
+from tests.app.waiting import until
+
+
+def test_a_reload_finds_what_it_left_and_a_second_tab_begins_anew(session, client, shared, runs):
+    client.change("Recording", "b")
+    client.change("δ", 0.3)
+    client.change("Frame", 33)
+    until(lambda: "Frame 33 of" in client.text() and runs.parameters[-1].delta == 0.3)
+    with FakeClient.on_a_server(client.local_storage) as tab:
+        other = Session(tab, shared)
+        until(lambda: "Moving" in tab.text())
+        assert tab.control("δ").value == 0.04
+        assert tab.control("Recording").value == "a"
+        other.close()
+        other.join(10)
+
+
+def test_a_reload_restores(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    client.change("Recording", "b")
+    client.change("δ", 0.3)
+    until(lambda: runs.parameters[-1].delta == 0.3)
+    client.change("Frame", 33)
+    until(lambda: "Frame 33 of" in client.text())
+    session.close()
+    session.join(10)
+    with FakeClient.on_a_server(client.local_storage) as again:
+        session = Session(again, shared)
+        until(lambda: "Frame 33 of" in again.text())
+        assert again.control("Recording").value == "b"
+        assert again.control("δ").value == 0.3
+        session.close()
+        session.join(10)
+
+
+def test_a_reload_restores_camera_and_view_too(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    client.change("Arrow scale", 1.5)
+    client.change("Robot", False)
+    client.change("Dark", True)
+    until(lambda: not client.node(f"{FIXED}/robot").visible)
+    client.camera.position, client.camera.look_at = np.array([5.0, 6.0, 7.0]), np.ones(3)
+    session.close()
+    session.join(10)
+    with FakeClient.on_a_server(client.local_storage) as again:
+        session = Session(again, shared)
+        until(lambda: "Moving" in again.text())
+        assert again.control("Arrow scale").value == 1.5
+        assert again.control("Dark").value
+        assert not again.node(f"{FIXED}/robot").visible
+        np.testing.assert_allclose(again.camera.position, [5.0, 6.0, 7.0])
+        again.change("Recording", "b")  # which is seen as it is seen first
+        until(lambda: not np.allclose(again.camera.position, [5.0, 6.0, 7.0]))
+        session.close()
+        session.join(10)
+
+
+def test_a_reload_restores_playback_and_comparison(client, shared, runs):
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    client.change("Speed", "0.5x")
+    client.change("Loop", True)
+    client.change("Range", (5, 30))
+    client.press("Copy A to B")
+    until(lambda: "<b>B</b> is shown" in client.text())
+    client.change("δ", 0.3)
+    until(lambda: runs.parameters[-1].delta == 0.3)
+    session.close()
+    session.join(10)
+    with FakeClient.on_a_server(client.local_storage) as again:
+        session = Session(again, shared)
+        until(lambda: "<b>B</b> is shown" in again.text())
+        assert again.control("Speed").value == "0.5x"
+        assert again.control("Loop").value
+        assert tuple(again.control("Range").value) == (5, 30)
+        assert again.control("δ").value == 0.3
+        again.press("Switch to A")
+        until(lambda: again.control("δ").value == 0.04)
+        session.close()
+        session.join(10)
+
+
+def arrive(client, shared, token):
+    """A session whose page was opened with a link."""
+    client.local_storage.set_item("link", token)
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text() or "No pair" in client.text())
+    session.close()
+    session.join(10)
+
+
+def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, runs):
+    camera = Camera((1.0, 2.0, 3.0), (0.5, 0.25, 0.0), 0.7)
+    arrive(client, shared, Place("b", 31, Parameters(n=5, delta=0.01), camera).token())
+    assert client.control("Recording").value == "b"
+    assert client.control("Frame").value == 31
+    assert set(runs.parameters) == {Parameters(n=5, delta=0.01)}
+    assert tuple(client.camera.position) == camera.position
+    assert tuple(client.camera.look_at) == camera.look_at
+    assert client.local_storage.get_item("link") is None
+    # What was left is found again, and not the link.
+    with FakeClient.on_a_server(client.local_storage) as again:
+        session = Session(again, shared)
+        until(lambda: "Frame 31 of" in again.text())
+        session.close()
+        session.join(10)
+
+
+@pytest.mark.parametrize(
+    ("token", "sentence"),
+    [
+        ("nonsense", "The link is damaged"),
+        (
+            Place("zz", 3, Parameters(n=5, delta=0.01)).token(),
+            "The recording zz is not among those",
+        ),
+    ],
+)
+def test_a_link_that_leads_nowhere_is_told(client, shared, runs, token, sentence):
+    arrive(client, shared, token)
+    assert any(sentence in said for said in client.notifications)
+    assert client.control("Recording").value == "a"
+    assert set(runs.parameters) == {Parameters()}
+
+
+def test_the_link_that_is_copied_leads_here(session, client):
+    client.change("δ", 0.3)
+    client.change("Frame", 30)
+    until(lambda: "Frame 30 of" in client.text())
+    client.take_sent()
+    client.press("Copy link")
+    until(lambda: client.notifications)
+    scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
+    (token,) = re.findall(r"\?link=([\w-]+)`", "".join(scripts))
+    place = from_token(token)
+    assert (place.label, place.frame, place.parameters.delta) == ("a", 30, 0.3)
+    assert place.camera == session_camera(client)
+
+
+def session_camera(client):
+    camera = client.camera
+    position, look_at = (tuple(np.round(v, 4).tolist()) for v in (camera.position, camera.look_at))
+    return Camera(position, look_at, round(camera.fov, 4))

@@ -1,0 +1,141 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.session.clock import Playback, PlaybackClock
+
+STAMPS = [100.0, 100.1, 100.2, 100.5, 100.6]
+
+
+def test_it_stands_still_at_first():
+    clock = PlaybackClock(STAMPS)
+    assert not clock.playing
+    assert clock.wait(0, 0.0) is None
+
+
+def test_frames_come_in_the_recordings_own_time_gaps_included():
+    clock = PlaybackClock(STAMPS)
+    clock.play(1, now=50.0)
+    assert [clock.advance(50.0 + t) for t in (0.0, 0.05, 0.11, 0.39, 0.41, 9.0)] == [
+        1,
+        1,
+        2,
+        2,
+        3,
+        4,
+    ]
+
+
+def test_who_comes_late_skips_frames():
+    clock = PlaybackClock(STAMPS)
+    clock.play(0, now=0.0)
+    assert clock.advance(0.45) == 2
+    assert clock.wait(2, 0.45) == pytest.approx(0.05)
+    assert clock.wait(0, 0.45) == 0
+
+
+def test_it_ends_at_the_last_frame():
+    clock = PlaybackClock(STAMPS)
+    clock.play(3, now=0.0)
+    assert clock.advance(0.05) == 3
+    assert clock.playing
+    assert clock.advance(0.11) == 4
+    assert not clock.playing
+    assert clock.wait(4, 0.11) is None
+
+
+def test_twice_the_speed_takes_half_the_time():
+    clock = PlaybackClock(STAMPS)
+    clock.change({"speed": 2.0}, 0, now=0.0)
+    clock.play(0, now=0.0)
+    assert clock.wait(0, 0.0) == pytest.approx(0.05)
+    assert [clock.advance(t) for t in (0.04, 0.06, 0.11, 0.24, 0.26)] == [0, 1, 2, 2, 3]
+
+
+def test_a_change_of_speed_goes_on_from_where_it_is():
+    clock = PlaybackClock(STAMPS)
+    clock.play(0, now=0.0)
+    for t in (0.01, 0.03, 0.05):  # in the middle between two frames
+        clock.change({"speed": 0.5 if t == 0.05 else 1.0}, 0, now=t)
+    assert clock.wait(0, 0.05) == pytest.approx(0.1, abs=1e-4)
+    assert [clock.advance(t) for t in (0.14, 0.16)] == [0, 1]
+
+
+def test_a_loop_shows_the_last_frame_for_a_period_and_begins_again():
+    clock = PlaybackClock(STAMPS)
+    clock.change({"loop": True, "first": 1, "last": 2}, 1, now=0.0)
+    clock.play(1, now=0.0)
+    assert [clock.advance(t) for t in (0.05, 0.11, 0.19)] == [1, 2, 2]
+    assert clock.wait(2, 0.11) == pytest.approx(0.09, abs=1e-4)
+    assert [clock.advance(t) for t in (0.21, 0.25, 0.32, 0.42)] == [1, 1, 2, 1]
+    assert clock.playing
+
+
+def test_a_range_ends_playback_and_beyond_it_the_recording_does():
+    clock = PlaybackClock(STAMPS)
+    clock.change({"first": 1, "last": 2}, 0, now=0.0)
+    clock.play(0, now=0.0)
+    assert clock.advance(9.0) == 2
+    assert not clock.playing
+    clock.play(3, now=0.0)
+    assert clock.advance(9.0) == 4
+
+
+@pytest.mark.parametrize(("asked", "kept"), [((0, 1), (0, 0)), ((-3, 9), (0, 0)), ((7, 2), (0, 0))])
+def test_a_range_is_kept_within_the_recording(asked, kept):
+    clock = PlaybackClock([100.0])
+    clock.change({"first": asked[0], "last": asked[1]}, 0, now=0.0)
+    assert (clock.playback.first, clock.playback.last) == kept
+    clock.play(0, now=0.0)
+    assert clock.advance(0.5) == 0
+    longer = PlaybackClock(STAMPS)
+    longer.change({"first": 3, "last": 1}, 0, now=0.0)
+    assert (longer.playback.first, longer.playback.last) == (1, 1)
+
+
+def test_one_frame_loops_without_haste():
+    clock = PlaybackClock([100.0])
+    clock.change({"loop": True}, 0, now=0.0)
+    clock.play(0, now=0.0)
+    assert clock.wait(0, 0.0) == pytest.approx(0.1, abs=1e-4)
+    assert clock.advance(0.2) == 0
+    assert clock.playing
+
+
+def test_speed_and_loop_outlive_a_recording_and_the_range_does_not():
+    clock = PlaybackClock(STAMPS)
+    clock.change({"speed": 5.0, "loop": True, "first": 2, "last": 3}, 0, now=0.0)
+    assert PlaybackClock(STAMPS[:3], like=clock.playback).playback == Playback(0, 2, 5.0, True)
+
+
+def test_a_last_frame_that_was_missed_is_still_waited_for():
+    clock = PlaybackClock(STAMPS)
+    clock.play(0, now=0.0)
+    assert clock.wait(3, 7.0) == 0
+
+
+def test_pause_stops_time():
+    clock = PlaybackClock(STAMPS)
+    clock.play(0, now=0.0)
+    clock.pause()
+    assert not clock.playing
+    assert clock.wait(0, 1.0) is None
+
+
+@given(
+    gaps=st.lists(st.floats(0.001, 2.0), min_size=1, max_size=30),
+    start=st.integers(0, 29),
+    origin=st.floats(-1e6, 1e6),
+)
+def test_after_each_wait_the_next_frame_is_due(gaps, start, origin):
+    stamps = 1.7e9 + np.cumsum(gaps)
+    clock = PlaybackClock(stamps)
+    frame = start % len(stamps)
+    now = origin
+    clock.play(frame, now)
+    while (wait := clock.wait(frame, now)) is not None:
+        now += wait
+        assert clock.advance(now) == frame + 1
+        frame += 1
+    assert frame == len(stamps) - 1
