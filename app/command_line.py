@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from app.commands import evaluate, export, info, simulate, study, view
+from app.commands.flags.parameter_flags import register_method_files
 from app.errors import UserError
 
 
@@ -19,6 +20,8 @@ class _Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    register_method_files(given)
     parser = _Parser(
         prog="tofscope",
         description="See and tune scene flow from miniature time-of-flight sensors.",
@@ -26,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for module in (view, info, simulate, evaluate, study, export):
         module.add_parser(commands)
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(given)
     try:
         return options.run(options)
     except UserError as error:

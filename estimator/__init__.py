@@ -3,30 +3,67 @@
 Arrays in, results out: nothing here knows a file, a viewer or a command line.
 """
 
-from estimator.cloud import CloudError, CloudPair, cloud_pair
-from estimator.estimate import estimate_pair, estimate_scene_flow
-from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow
-from estimator.methods import method_names
-from estimator.metrics import MOVING_SPEED, Metrics, PooledErrors, angles_deg
-from estimator.parameters import PARAMETER_INFO, ParameterError, ParameterInfo, Parameters
+from estimator import methods as _built_in  # noqa: F401 (registers the methods that come along)
+from estimator.cloud import Cloud, CloudError, PlainCloud
+from estimator.estimate import estimate, estimate_scene_flow
+from estimator.flow import (
+    ClusterResult,
+    IcpRound,
+    Label,
+    SceneFlow,
+    StoryRow,
+    scene_flow_of_points,
+)
+from estimator.method import Method, MethodError, Tracker, all_methods, find_method, register
+from estimator.metrics import (
+    METRIC_INFO,
+    MOVING_SPEED,
+    MetricInfo,
+    Metrics,
+    PooledErrors,
+    angles_deg,
+)
+from estimator.parameter_info import CheckedParameters, ParameterError, ParameterInfo, parameter
+from estimator.parameter_values import changed, from_nested, to_nested, values_of
+from estimator.parameters import PARAMETER_INFO, Parameters, method_names
+from estimator.window import LazyFrames, Window, window_of_pair
 
 __all__ = [
+    "METRIC_INFO",
     "MOVING_SPEED",
     "PARAMETER_INFO",
+    "CheckedParameters",
+    "Cloud",
     "CloudError",
-    "CloudPair",
     "ClusterResult",
     "IcpRound",
     "Label",
+    "LazyFrames",
+    "Method",
+    "MethodError",
+    "MetricInfo",
     "Metrics",
     "ParameterError",
     "ParameterInfo",
     "Parameters",
+    "PlainCloud",
     "PooledErrors",
     "SceneFlow",
+    "StoryRow",
+    "Tracker",
+    "Window",
+    "all_methods",
     "angles_deg",
-    "cloud_pair",
-    "estimate_pair",
+    "changed",
+    "estimate",
     "estimate_scene_flow",
+    "find_method",
+    "from_nested",
     "method_names",
+    "parameter",
+    "register",
+    "scene_flow_of_points",
+    "to_nested",
+    "values_of",
+    "window_of_pair",
 ]

@@ -1,25 +1,31 @@
 """The paper's baseline: clustering and ICP without the two added steps (section III-B)."""
 
-from estimator.cloud import CloudPair
 from estimator.clustering import Cluster, clusters_of
 from estimator.flow import ClusterResult, Label, SceneFlow, cluster_result, scene_flow
+from estimator.method import Method
 from estimator.parameters import Parameters
-from estimator.rounds import icp_round, too_few_points
+from estimator.rounds import USED, icp_round, too_few_points
+from estimator.window import Window
 
 
-def baseline(pair: CloudPair, parameters: Parameters) -> SceneFlow:
+def baseline(window: Window, parameters: Parameters) -> SceneFlow:
     """Move every cluster of at least N_min points as its first ICP says; no gate, no removal."""
-    clusters = clusters_of(pair, parameters)
-    return scene_flow(len(pair.source), [_move(cluster, pair, parameters) for cluster in clusters])
+    clusters = clusters_of(window, parameters)
+    return scene_flow(
+        len(window.source.points), [_move(cluster, window, parameters) for cluster in clusters]
+    )
 
 
-def _move(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> ClusterResult:
+def _move(cluster: Cluster, window: Window, parameters: Parameters) -> ClusterResult:
     if reason := too_few_points(cluster.source, cluster.target, parameters):
         return cluster_result(cluster, cluster.source, [], Label.UNASSIGNED, reason)
-    current, displacement = icp_round(cluster.source, cluster.target, pair, parameters)
+    current, displacement = icp_round(cluster.source, cluster.target, window, parameters)
     reason = (
         f"the baseline moves every cluster: fitness {current.fitness:.2f}, "
         f"mean displacement {1e3 * current.mean_displacement:.0f} mm"
     )
-    velocity = displacement / pair.interval
+    velocity = displacement / window.interval
     return cluster_result(cluster, cluster.source, [current], Label.MOVING, reason, velocity)
+
+
+BASELINE = Method("baseline", baseline, uses=USED)

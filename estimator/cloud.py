@@ -1,14 +1,10 @@
-"""The two clouds that an estimate looks at."""
+"""Clouds that an estimate looks at: points, and the rays of the zones that they come from."""
 
-import math
 from dataclasses import dataclass, field
-from numbers import Real
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from estimator.stages import Stages
 
 _FARTHEST = 1e100  # metres; squares of what is larger overflow, and HDBSCAN then never returns
 
@@ -27,54 +23,115 @@ class HasPoints(Protocol):
         ...
 
 
-@dataclass(frozen=True)
-class CloudPair:
-    """Source and target of an estimate; nobody changes the clouds while it is used.
+@runtime_checkable
+class Cloud(HasPoints, Protocol):
+    """One frame as methods see it; a recording's clouds are such, and so is `PlainCloud`.
 
-    Attributes:
-        source: (N, 3) metres, P_{k-n}.
-        target: (M, 3) metres, P_k, in the same frame.
-        interval: seconds between the two stamps, above zero.
-        stages: what was found out about the pair already.
+    S sensors have grids of at most R rows and C columns of zones. Arrays are read-only.
     """
 
-    source: NDArray[np.float64]
-    target: NDArray[np.float64]
-    interval: float
-    stages: Stages = field(default_factory=Stages, repr=False, compare=False)
+    @property
+    def stamp(self) -> float:
+        """Seconds."""
+        ...
+
+    @property
+    def sensor(self) -> NDArray[np.int64]:
+        """(N,) index of each point's sensor, -1 where it has none."""
+        ...
+
+    @property
+    def zone(self) -> NDArray[np.int64]:
+        """(N,) index of each point's zone, row * C + column, -1 where it has none."""
+        ...
+
+    @property
+    def directions(self) -> NDArray[np.float64]:
+        """(S, R, C, 3) unit rays in each sensor's frame, NaN beyond a sensor's own grid."""
+        ...
+
+    @property
+    def ranges(self) -> NDArray[np.float64]:
+        """(S, R, C) metres along the optical axis, NaN where a zone has no return."""
+        ...
+
+    @property
+    def status(self) -> NDArray[np.uint8] | None:
+        """(S, R, C) ST's target status, None where it was not recorded."""
+        ...
+
+    @property
+    def T_fixed_sensor(self) -> NDArray[np.float64]:  # noqa: N802 (a transformation)
+        """(S, 4, 4) poses of the sensors, NaN where unknown."""
+        ...
 
 
-def cloud_pair(
-    source: ArrayLike | HasPoints, target: ArrayLike | HasPoints, interval: float
-) -> CloudPair:
-    """Check the input of an estimate and bring it into one form.
+@dataclass(frozen=True)
+class PlainCloud:
+    """Points without sensors: a `Cloud` with no rays; see there for the attributes."""
+
+    points: NDArray[np.float64]
+    sensor: NDArray[np.int64]
+    zone: NDArray[np.int64]
+    stamp: float = 0.0
+    directions: NDArray[np.float64] = field(default_factory=lambda: _empty(0, 0, 0, 3))
+    ranges: NDArray[np.float64] = field(default_factory=lambda: _empty(0, 0, 0))
+    status: NDArray[np.uint8] | None = None
+    T_fixed_sensor: NDArray[np.float64] = field(default_factory=lambda: _empty(0, 4, 4))
+
+
+def plain_cloud(name: str, values: ArrayLike | HasPoints, stamp: float) -> Cloud:
+    """Check points, or a cloud's, and give them a cloud's form.
 
     Args:
-        source: (N, 3) metres, or a cloud; N may be 0, rows may hold NaN.
-        target: (M, 3) metres, or a cloud, likewise.
-        interval: seconds between the two stamps.
+        name: of the cloud, for the sentence.
+        values: (N, 3) metres, anything with such points, or a cloud, which is kept as it is.
+        stamp: seconds, for points that bring none.
 
     Raises:
-        CloudError: a wrong shape, type or size; an interval that is no finite number above zero.
+        CloudError: the points have a wrong shape, type or size.
     """
-    if not isinstance(interval, Real) or not math.isfinite(interval) or interval <= 0:
-        raise CloudError(
-            f"The interval must be a finite number of seconds above 0, got {interval!r}."
-        )
-    return CloudPair(_points("source", source), _points("target", target), float(interval))
+    if _is_cloud(values):
+        return with_checked_points(name, values)
+    points = _checked_points(name, values.points if isinstance(values, HasPoints) else values)
+    nowhere = read_only(np.full(len(points), -1, dtype=np.int64))
+    return PlainCloud(points, nowhere, nowhere, stamp)
 
 
-def _points(name: str, cloud: ArrayLike | HasPoints) -> NDArray[np.float64]:
-    values = cloud.points if isinstance(cloud, HasPoints) else cloud
+def with_checked_points(name: str, cloud: Cloud) -> Cloud:
+    """The cloud itself.
+
+    Raises:
+        CloudError: its points have a wrong shape, type or size.
+    """
+    _checked_points(name, cloud.points)
+    return cloud
+
+
+def read_only(values: NDArray[Any]) -> NDArray[Any]:
+    """The array, which cannot be written to any more."""
+    values.setflags(write=False)
+    return values
+
+
+def _empty(*shape: int) -> NDArray[np.float64]:
+    return read_only(np.zeros(shape))
+
+
+def _is_cloud(values: object) -> TypeGuard[Cloud]:
+    return isinstance(values, Cloud)
+
+
+def _checked_points(name: str, values: ArrayLike) -> NDArray[np.float64]:
     try:
         points = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise CloudError(f"The {name} must hold numbers: {error}.") from error
     if points.shape == (0,):  # an empty list says nothing of its columns
-        return np.zeros((0, 3))
+        return read_only(np.zeros((0, 3)))
     if points.ndim != 2 or points.shape[1] != 3:
         raise CloudError(f"The {name} must have the shape (N, 3), got {points.shape}.")
     farthest = np.abs(points, where=np.isfinite(points), out=np.zeros_like(points)).max(initial=0.0)
     if farthest > _FARTHEST:
         raise CloudError(f"The {name} must lie within {_FARTHEST:g} m, got {farthest:g} m.")
-    return points
+    return read_only(points.view())

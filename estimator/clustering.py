@@ -1,14 +1,13 @@
 """Lines 1-4 of Algorithm 1: merge the clouds, cluster them, split each cluster again."""
 
 import numpy as np
-from sklearn.cluster import HDBSCAN
 
-from estimator.cloud import CloudPair
 from estimator.flow import Cluster
 from estimator.parameters import Parameters
+from estimator.window import Window
 
 
-def clusters_of(pair: CloudPair, parameters: Parameters) -> tuple[Cluster, ...]:
+def clusters_of(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
     """Cluster the merged clouds with HDBSCAN, once for each setting of it.
 
     The target's points come first in the merged cloud: ties in HDBSCAN depend on the order, so
@@ -20,13 +19,16 @@ def clusters_of(pair: CloudPair, parameters: Parameters) -> tuple[Cluster, ...]:
         parameters.min_samples,
         parameters.allow_single_cluster,
     )
-    return pair.stages.get(("clusters", settings), lambda: _clusters(pair, parameters))
+    return window.stages.get(("clusters", settings), lambda: _clusters(window, parameters))
 
 
-def _clusters(pair: CloudPair, parameters: Parameters) -> tuple[Cluster, ...]:
-    finite_target = np.flatnonzero(np.isfinite(pair.target).all(axis=1))
-    finite_source = np.flatnonzero(np.isfinite(pair.source).all(axis=1))
-    merged = np.vstack([pair.target[finite_target], pair.source[finite_source]])
+def _clusters(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
+    from sklearn.cluster import HDBSCAN
+
+    source, target = window.source.points, window.target.points
+    finite_target = np.flatnonzero(np.isfinite(target).all(axis=1))
+    finite_source = np.flatnonzero(np.isfinite(source).all(axis=1))
+    merged = np.vstack([target[finite_target], source[finite_source]])
     if len(merged) < max(parameters.min_cluster_size, parameters.min_samples or 1, 2):
         return ()
     labels = HDBSCAN(

@@ -1,11 +1,12 @@
-"""The one call that everything else makes."""
+"""Estimate of the scene flow of a pair of clouds or of a window of frames."""
 
 from numpy.typing import ArrayLike
 
-from estimator.cloud import CloudPair, HasPoints, cloud_pair
+from estimator.cloud import CloudError, HasPoints
 from estimator.flow import SceneFlow
-from estimator.methods import method
+from estimator.method import find_method
 from estimator.parameters import Parameters
+from estimator.window import Window, window_of_pair
 
 
 def estimate_scene_flow(
@@ -27,15 +28,28 @@ def estimate_scene_flow(
         A label and a velocity for each source point, and the story of each cluster.
 
     Raises:
-        CloudError: a cloud of the wrong shape, or an interval not above zero.
+        CloudError: a cloud of the wrong shape, or an interval not above zero; or the method looks
+            along rays, and these are plain points.
     """
-    return estimate_pair(cloud_pair(source, target, interval), parameters)
+    return estimate(window_of_pair(source, target, interval), parameters)
 
 
-def estimate_pair(pair: CloudPair, parameters: Parameters) -> SceneFlow:
-    """The same for a pair that is estimated again and again, with other parameters.
+def estimate(window: Window, parameters: Parameters) -> SceneFlow:
+    """Estimate the scene flow of a window; a tracker sees this window as its first.
 
-    What an earlier estimate of the pair found out, and these parameters do not change, is not
-    computed again: with other γ, δ and N_min the clustering and all ICP rounds done so far stay.
+    Earlier results of the window's stages that these parameters do not change are used again:
+    with other γ, δ and N_min the clustering and all ICP rounds done so far stay.
+
+    Raises:
+        CloudError: the method looks along rays, and the window holds plain points.
     """
-    return method(parameters.method)(pair, parameters)
+    asked = find_method(parameters.method)
+    if asked.needs_rays and len(window.source.ranges) == 0:
+        raise CloudError(
+            f"Method {asked.name} looks along the rays of sensors; give it clouds of a recording "
+            "and not plain points."
+        )
+    if asked.tracker is not None:
+        return asked.tracker(parameters).step(window)
+    assert asked.flow is not None  # `register` saw to it
+    return asked.flow(window, parameters)

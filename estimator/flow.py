@@ -1,5 +1,6 @@
-"""What an estimate returns: a label and a velocity per source point, and a story per cluster."""
+"""Result of an estimate: a label and a velocity per source point, and a result per cluster."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -10,7 +11,7 @@ Indices = NDArray[np.intp]
 
 
 class Label(IntEnum):
-    """What a source point, or a cluster, was found to be."""
+    """Label of a source point or of a cluster."""
 
     UNASSIGNED = 0
     STATIONARY = 1
@@ -58,8 +59,25 @@ class IcpRound:
 
 
 @dataclass(frozen=True)
+class StoryRow:
+    """One line of a method's own account of a cluster, shown as it is.
+
+    Attributes:
+        name: of the quantity.
+        value: a number or a text.
+        unit: "" where there is none.
+        threshold: number that the value was held against, None where there is none.
+    """
+
+    name: str
+    value: float | str
+    unit: str = ""
+    threshold: float | None = None
+
+
+@dataclass(frozen=True)
 class ClusterResult:
-    """What became of one cluster, and why.
+    """Outcome of one cluster, and the reason for it.
 
     Attributes:
         index: the cluster's number, as in `SceneFlow.cluster`.
@@ -71,6 +89,7 @@ class ClusterResult:
         label: of the remaining points. Inliers removed on the way are stationary.
         velocity: (len(remaining), 3) m/s, NaN where `label` is not MOVING.
         reason: why it has this label, in words.
+        story: what else the method tells of it.
     """
 
     index: int
@@ -81,6 +100,7 @@ class ClusterResult:
     label: Label
     velocity: NDArray[np.float64]
     reason: str
+    story: tuple[StoryRow, ...] = ()
 
     @property
     def fitness(self) -> float:
@@ -106,13 +126,17 @@ class SceneFlow:
         label: (N,) `Label` of each source point.
         velocity: (N, 3) m/s in the clouds' frame, NaN where the label is not MOVING.
         cluster: (N,) cluster index of each source point, -1 for none.
-        clusters: a result per cluster, in the order of their indices.
+        clusters: a result per cluster, in the order of their indices; arrays are read-only.
     """
 
     label: NDArray[np.int64]
     velocity: NDArray[np.float64]
     cluster: NDArray[np.int64]
     clusters: tuple[ClusterResult, ...]
+
+    def __post_init__(self) -> None:
+        for values in (self.label, self.velocity, self.cluster):
+            values.setflags(write=False)  # results are shared between sessions and threads
 
     @property
     def moving(self) -> NDArray[np.bool_]:
@@ -127,8 +151,9 @@ def cluster_result(
     label: Label,
     reason: str,
     velocity: NDArray[np.float64] | None = None,
+    story: Sequence[StoryRow] = (),
 ) -> ClusterResult:
-    """Close a cluster's story; `velocity` (len(remaining), 3) in m/s is given where it moves."""
+    """Result of a cluster; `velocity` (len(remaining), 3) in m/s is given where it moves."""
     return ClusterResult(
         index=cluster.index,
         source=cluster.source,
@@ -138,10 +163,11 @@ def cluster_result(
         label=label,
         velocity=np.full((len(remaining), 3), np.nan) if velocity is None else velocity,
         reason=f"{label.name.capitalize()}: {reason}.",
+        story=tuple(story),
     )
 
 
-def scene_flow(source_size: int, clusters: list[ClusterResult]) -> SceneFlow:
+def scene_flow(source_size: int, clusters: Sequence[ClusterResult]) -> SceneFlow:
     """Put the clusters' results together into labels and velocities of `source_size` points."""
     label = np.full(source_size, Label.UNASSIGNED, dtype=np.int64)
     velocity = np.full((source_size, 3), np.nan)
@@ -152,3 +178,19 @@ def scene_flow(source_size: int, clusters: list[ClusterResult]) -> SceneFlow:
         label[result.remaining] = result.label
         velocity[result.remaining] = result.velocity
     return SceneFlow(label, velocity, cluster, tuple(clusters))
+
+
+def scene_flow_of_points(
+    velocity: NDArray[np.float64], cluster: NDArray[np.int64] | None = None
+) -> SceneFlow:
+    """Scene flow of a method that decides point by point.
+
+    Args:
+        velocity: (N, 3) m/s of each source point that moves, NaN for one that does not.
+        cluster: (N,) index of each point's cluster, -1 for none; None puts all into none.
+    """
+    moving = np.asarray(np.isfinite(velocity).all(axis=1))
+    label = np.where(moving, Label.MOVING, Label.STATIONARY).astype(np.int64)
+    if cluster is None:
+        cluster = np.full(len(velocity), -1, dtype=np.int64)
+    return SceneFlow(label, np.where(moving[:, None], velocity, np.nan), cluster, ())

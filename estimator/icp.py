@@ -1,18 +1,13 @@
 """Point-to-point ICP by Open3D."""
 
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
-import open3d as o3d
 from numpy.typing import NDArray
 
 from estimator.flow import Indices
-
-_POINT_TO_POINT = o3d.pipelines.registration.TransformationEstimationPointToPoint()
-# Open3D's own defaults, named here because fitness depends on where ICP stops.
-_CRITERIA = o3d.pipelines.registration.ICPConvergenceCriteria(
-    relative_fitness=1e-6, relative_rmse=1e-6, max_iteration=30
-)
 
 
 @dataclass(frozen=True)
@@ -47,13 +42,15 @@ def register(
         target: (M, 3) metres, M > 0.
         max_correspondence_distance: metres.
     """
+    # Open3D takes a second to import, which a command line's help need not wait for.
+    import open3d as o3d
+
     result = o3d.pipelines.registration.registration_icp(
         _point_cloud(source),
         _point_cloud(target),
         max_correspondence_distance,
         np.eye(4),
-        _POINT_TO_POINT,
-        _CRITERIA,
+        *_settings(),
     )
     correspondences = np.asarray(result.correspondence_set, dtype=np.intp).reshape(-1, 2)
     transformation = np.array(result.transformation)
@@ -70,5 +67,22 @@ def register(
     )
 
 
-def _point_cloud(points: NDArray[np.float64]) -> o3d.geometry.PointCloud:
+@cache
+def _settings() -> tuple[Any, Any]:
+    """Open3D's point-to-point estimation, and its own criteria of convergence.
+
+    They are named since fitness depends on where ICP stops.
+    """
+    import open3d as o3d
+
+    registration = o3d.pipelines.registration
+    criteria = registration.ICPConvergenceCriteria(
+        relative_fitness=1e-6, relative_rmse=1e-6, max_iteration=30
+    )
+    return registration.TransformationEstimationPointToPoint(), criteria
+
+
+def _point_cloud(points: NDArray[np.float64]) -> Any:  # noqa: ANN401 (Open3D has no types)
+    import open3d as o3d
+
     return o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))

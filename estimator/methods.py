@@ -1,39 +1,10 @@
-"""Methods by name: a new estimator is registered here, and nothing else changes."""
+"""The methods that come with the project; a further one is added to the tuple."""
 
-from collections.abc import Callable
-from importlib import import_module
-from typing import TYPE_CHECKING, Protocol, cast
+from estimator.baseline import BASELINE
+from estimator.method import register
+from estimator.paper import ALGORITHM_1
 
-if TYPE_CHECKING:
-    from estimator.cloud import CloudPair
-    from estimator.flow import SceneFlow
-    from estimator.parameters import Parameters
+BUILT_IN = (ALGORITHM_1, BASELINE)
 
-
-class Method(Protocol):
-    """What every estimator looks like: a pair of clouds in, a scene flow out."""
-
-    def __call__(self, pair: "CloudPair", parameters: "Parameters") -> "SceneFlow":
-        """Estimate the flow of one pair."""
-        ...
-
-
-def _imported(module: str, function: str) -> Callable[[], Method]:
-    """Defer an import, so that Open3D is loaded by the first estimate and not by `--help`."""
-    return lambda: cast(Method, getattr(import_module(module), function))
-
-
-_METHODS: dict[str, Callable[[], Method]] = {
-    "paper": _imported("estimator.paper", "algorithm_1"),
-    "baseline": _imported("estimator.baseline", "baseline"),
-}
-
-
-def method_names() -> tuple[str, ...]:
-    """The names of all registered methods, the paper's first."""
-    return tuple(_METHODS)
-
-
-def method(name: str) -> Method:
-    """The method registered under `name`; KeyError where there is none."""
-    return _METHODS[name]()
+for _method in BUILT_IN:
+    register(_method)

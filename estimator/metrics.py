@@ -1,4 +1,4 @@
-"""How far a flow is from the truth, pooled over the points and pairs of a recording.
+"""Errors of a flow against the truth, pooled over the points and pairs of a recording.
 
 Two families stand beside each other. The paper's errors compare every point that has a flow with
 the velocity of the moving object. The field's metrics (EPE3D, AccS, AccR, Outliers, dynamic IoU)
@@ -17,7 +17,8 @@ on the same recordings, and say little without coverage and precision.
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,54 +36,144 @@ RELATIVE_EPSILON = 1e-4
 """Metres in the denominator of r, as in HPLFlowNet (Argoverse 2 has 1e-10, ICP-Flow 1e-20)."""
 
 
+MetricKind = Literal["count", "share", "error", "signed"]
+"""A whole number; a part from 0 to 1; a size from 0 on; a number that may be below 0, too."""
+
+
+@dataclass(frozen=True)
+class MetricInfo:
+    """Description of a metric, from which tables, files, plots and the page are made.
+
+    Attributes:
+        title: its name.
+        short: its name where there is little room.
+        unit: "" for a plain number.
+        form: format of its values.
+        kind: which values it can have.
+        definition: what it is, in words.
+        source: where it is from.
+        plotted: whether the page shows it for every pair.
+    """
+
+    title: str
+    short: str
+    unit: str
+    form: str
+    kind: MetricKind
+    definition: str
+    source: str
+    plotted: bool = False
+
+    @property
+    def heading(self) -> str:
+        """Its title with its unit."""
+        return f"{self.title} {self.unit}".strip()
+
+    def text(self, value: float | None) -> str:
+        """A value as people read it, – where it is not defined."""
+        return "–" if value is None or math.isnan(value) else format(value, self.form)
+
+
+def _metric(
+    title: str,
+    definition: str,
+    source: str = "",
+    *,
+    kind: MetricKind = "share",
+    short: str = "",
+    unit: str = "",
+    form: str = ".3f",
+    plotted: bool = False,
+) -> Any:  # noqa: ANN401 (a dataclass field)
+    info = MetricInfo(title, short or title, unit, form, kind, definition, source, plotted)
+    return field(metadata={"metric": info})
+
+
 @dataclass(frozen=True)
 class Metrics:
     """Errors pooled over all points and pairs; NaN where nothing defines them.
 
     Pooled means over all points of all pairs that count together, and not the mean of the pairs'
     means; only `false_flow` takes the other pairs, too. A point whose own truth is not known enters
-    the paper's errors alone.
-
-    Attributes:
-        pairs: pairs that count, those without any flow included.
-        points_with_flow: source points with a flow in all of them.
-        angle_deg: mean angle between each flow and the moving object's velocity, degrees; a flow
-            of exactly zero has no direction and is left out (paper, section IV).
-        velocity_error: mean length of their difference, m/s (paper, section IV).
-        coverage: truly moving points that got a flow / truly moving points.
-        precision: points with a flow that truly move / points with a flow.
-        epe3d: end-point error, mean e, metres per pair. FlowNet3D (Liu et al., CVPR 2019).
-        acc_s: AccS, strict accuracy: share of points with e < 0.05 m or r < 0.05. HPLFlowNet (Gu et
-            al., CVPR 2019), evaluation_utils.evaluate_3d; the same in Argoverse 2 and ICP-Flow.
-        acc_r: AccR, relaxed accuracy: share with e < 0.10 m or r < 0.10. From the same.
-        outliers: share with e > 0.30 m or r > 0.10. HPLFlowNet; ICP-Flow's ROutliers, which want
-            both, and the latter above 0.30, are not the same.
-        dynamic_iou: points that truly move and were found to / points that either is true of:
-            TP / (TP + FP + FN) as in the evaluation of Argoverse 2. What truly moves is faster than
-            MOVING_SPEED, as for coverage and precision: the truth depends on no parameter, so that
-            sets of parameters can be compared. What was found to move is what got a flow: that is
-            the method's own decision, in the paper's the displacement gate delta, a speed of
-            delta / interval (0.075 m/s with n = 8 at 15 Hz). Argoverse 2 says 0.05 m per 0.1 s.
-        false_flow: points with a flow that do not truly move / points that do not truly move, over
-            all pairs whose truth is known, those that do not count included: it is defined also
-            where nothing ever moves.
+    the paper's errors alone. `METRIC_INFO` defines each.
     """
 
-    pairs: int
-    points_with_flow: int
-    angle_deg: float
-    velocity_error: float
-    coverage: float
-    precision: float
-    epe3d: float
-    acc_s: float
-    acc_r: float
-    outliers: float
-    dynamic_iou: float
-    false_flow: float
+    pairs: int = _metric(
+        "pairs", "pairs that count, those without any flow included", kind="count", form="d"
+    )
+    points_with_flow: int = _metric(
+        "points with flow", "source points with a flow in all of them", kind="count", form="d"
+    )
+    angle_deg: float = _metric(
+        "angle deviation",
+        "mean angle between each flow and the moving object's velocity; a flow of exactly zero "
+        "has no direction and is left out",
+        "paper, section IV",
+        kind="error",
+        unit="deg",
+        form=".2f",
+        plotted=True,
+    )
+    velocity_error: float = _metric(
+        "velocity error",
+        "mean length of the difference between each flow and the moving object's velocity",
+        "paper, section IV",
+        kind="error",
+        short="vel. error",
+        unit="m/s",
+        form=".4f",
+        plotted=True,
+    )
+    coverage: float = _metric(
+        "coverage", "truly moving points that got a flow / truly moving points", plotted=True
+    )
+    precision: float = _metric(
+        "precision", "points with a flow that truly move / points with a flow", plotted=True
+    )
+    epe3d: float = _metric(
+        "EPE3D",
+        "end-point error, mean e per pair",
+        "FlowNet3D (Liu et al., CVPR 2019)",
+        kind="error",
+        unit="m",
+        form=".4f",
+    )
+    acc_s: float = _metric(
+        "AccS",
+        "strict accuracy: share of points with e < 0.05 m or r < 0.05",
+        "HPLFlowNet (Gu et al., CVPR 2019), evaluation_utils.evaluate_3d; the same in Argoverse 2 "
+        "and ICP-Flow",
+    )
+    acc_r: float = _metric(
+        "AccR",
+        "relaxed accuracy: share of points with e < 0.10 m or r < 0.10",
+        "HPLFlowNet, as AccS",
+    )
+    outliers: float = _metric(
+        "outliers",
+        "share of points with e > 0.30 m or r > 0.10",
+        "HPLFlowNet; ICP-Flow's ROutliers, which want both, and the latter above 0.30, are not the "
+        "same",
+    )
+    dynamic_iou: float = _metric(
+        "dynamic IoU",
+        "points that truly move and got a flow / points that either is true of, "
+        "TP / (TP + FP + FN). Truly moving is faster than MOVING_SPEED, as for coverage and "
+        "precision, so that sets of parameters can be compared; found to move is the method's own "
+        "decision, in the paper's the displacement gate delta",
+        "evaluation of Argoverse 2, which calls moving what goes 0.05 m per 0.1 s",
+    )
+    false_flow: float = _metric(
+        "false flow",
+        "points with a flow that do not truly move / points that do not truly move, over all "
+        "pairs whose truth is known, those that do not count included",
+        form=".4f",
+    )
 
 
-_MEANS = tuple(f.name for f in fields(Metrics) if f.name not in ("pairs", "points_with_flow"))
+METRIC_INFO: dict[str, MetricInfo] = {f.name: f.metadata["metric"] for f in fields(Metrics)}
+
+_MEANS = tuple(name for name, info in METRIC_INFO.items() if info.kind != "count")
 
 
 class PooledErrors:
@@ -141,12 +232,12 @@ class PooledErrors:
 
     @property
     def sums(self) -> NDArray[np.float64]:
-        """(21,) what was added so far, to `include` it elsewhere: pairs, and sum, count of each."""
+        """All that was added, to `include` it elsewhere: pairs, then sum and count of each mean."""
         means = self._means.values()
         return np.array([self._pairs, *(v for m in means for v in (m.sum, m.count))])
 
     def include(self, sums: NDArray[np.float64]) -> None:
-        """Add the pairs of another collection, by its `sums` (21,)."""
+        """Add the pairs of another collection, by its `sums`."""
         self._pairs += int(sums[0])
         for mean, (total, count) in zip(self._means.values(), sums[1:].reshape(-1, 2), strict=True):
             mean.sum += float(total)

@@ -11,23 +11,24 @@ What the text leaves open is decided here, and where users may differ it is a pa
 
 import numpy as np
 
-from estimator.cloud import CloudPair
 from estimator.clustering import Cluster, clusters_of
 from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow, cluster_result, scene_flow
+from estimator.method import Method
 from estimator.parameters import Parameters
-from estimator.rounds import icp_round, too_few_points
+from estimator.rounds import USED, icp_round, too_few_points
+from estimator.window import Window
 
 MAX_ROUNDS = 20
 
 
-def algorithm_1(pair: CloudPair, parameters: Parameters) -> SceneFlow:
+def algorithm_1(window: Window, parameters: Parameters) -> SceneFlow:
     """Estimate the scene flow of one pair (section II-B)."""
-    clusters = clusters_of(pair, parameters)  # lines 1-2: merge, HDBSCAN
-    results = [classify(cluster, pair, parameters) for cluster in clusters]  # line 3
-    return scene_flow(len(pair.source), results)
+    clusters = clusters_of(window, parameters)  # lines 1-2: merge, HDBSCAN
+    results = [classify(cluster, window, parameters) for cluster in clusters]  # line 3
+    return scene_flow(len(window.source.points), results)
 
 
-def classify(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> ClusterResult:
+def classify(cluster: Cluster, window: Window, parameters: Parameters) -> ClusterResult:
     """Lines 4-22 for one cluster; the numbers in the comments are the pseudocode's lines."""
     gamma, delta = parameters.gamma, parameters.delta
     source, target = cluster.source, cluster.target  # 4
@@ -37,7 +38,7 @@ def classify(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> Clust
         if reason := too_few_points(source, target, parameters):  # 5-7
             return cluster_result(cluster, source, rounds, Label.UNASSIGNED, reason)
 
-        current, displacement = icp_round(source, target, pair, parameters)  # 8-12
+        current, displacement = icp_round(source, target, window, parameters)  # 8-12
         rounds.append(current)
 
         if current.fitness > gamma:  # 13
@@ -47,7 +48,7 @@ def classify(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> Clust
                 reason = f"{reached}, {moved} below δ {1e3 * delta:g} mm"
                 return cluster_result(cluster, source, rounds, Label.STATIONARY, reason)
             reason = f"{reached}, {moved} not below δ {1e3 * delta:g} mm"  # 16-18
-            velocity = displacement / pair.interval
+            velocity = displacement / window.interval
             return cluster_result(cluster, source, rounds, Label.MOVING, reason, velocity)
 
         if len(current.inlier_source) == 0:
@@ -58,3 +59,6 @@ def classify(cluster: Cluster, pair: CloudPair, parameters: Parameters) -> Clust
 
     reason = f"fitness not above γ {gamma:g} in {MAX_ROUNDS} rounds"
     return cluster_result(cluster, source, rounds, Label.UNASSIGNED, reason)
+
+
+ALGORITHM_1 = Method("paper", algorithm_1, title="Algorithm 1", uses=(*USED, "gamma", "delta"))

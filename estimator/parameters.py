@@ -1,55 +1,47 @@
-"""The parameters of the estimator: one definition for sliders, flags, saved files and documents."""
+"""Parameters of an estimate: the one definition for sliders, flags, files and documents."""
 
-import math
-from dataclasses import dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
-import numpy as np
+from estimator.parameter_info import (
+    CheckedParameters,
+    ParameterError,
+    ParameterInfo,
+    infos_of,
+    parameter,
+)
 
-from estimator.methods import method_names
+T = TypeVar("T", bound=CheckedParameters)
 
-
-class ParameterError(ValueError):
-    """A parameter has a value outside its range, or of the wrong type."""
-
-
-@dataclass(frozen=True)
-class ParameterInfo:
-    """What a person needs to know about a parameter.
-
-    Attributes:
-        text: its meaning in one sentence.
-        symbol: how the paper writes it.
-        unit: its unit, "" for a plain number.
-        low: smallest value accepted.
-        high: largest value accepted.
-        slider: (smallest, largest, step) offered by a slider, None where there is no slider.
-    """
-
-    text: str
-    symbol: str = ""
-    unit: str = ""
-    low: float = -math.inf
-    high: float = math.inf
-    slider: tuple[float, float, float] | None = None
+_METHODS: dict[str, None] = {}
 
 
-def _parameter(default: Any, **info: Any) -> Any:  # noqa: ANN401 (a dataclass field of any type)
-    return field(default=default, metadata={"info": ParameterInfo(**info)})
+def add_method_name(name: str) -> None:
+    """Accept a name as `Parameters.method` from now on; `estimator.method.register` calls it."""
+    _METHODS[name] = None
+
+
+def method_names() -> tuple[str, ...]:
+    """Names of all registered methods, the paper's first."""
+    return tuple(_METHODS)
 
 
 @dataclass(frozen=True)
-class Parameters:
-    """The parameters of an estimate; defaults are the paper's (section III-B) where it gives one.
+class Parameters(CheckedParameters):
+    """Parameters of an estimate; defaults are the paper's (section III-B) where it gives one.
 
     The paper leaves `min_cluster_size` and `max_correspondence_distance` open; their defaults
     reproduce its tables best on simulated recordings. Numbers of NumPy become Python's.
+
+    Attributes:
+        own: parameters that methods declare themselves, an object for each class of them; those
+            that equal their defaults are left out, so that equal parameters are equal.
 
     Raises:
         ParameterError: a value is of the wrong type or outside its range; the sentence names it.
     """
 
-    n: int = _parameter(
+    n: int = parameter(
         8,
         text="frames between the source k-n and the target k",
         symbol="n",
@@ -58,7 +50,7 @@ class Parameters:
         high=1000,
         slider=(1, 20, 1),
     )
-    gamma: float = _parameter(
+    gamma: float = parameter(
         0.7,
         text="a cluster is classified once its ICP fitness is above this",
         symbol="γ",
@@ -66,7 +58,7 @@ class Parameters:
         high=1.0,
         slider=(0.0, 1.0, 0.01),
     )
-    delta: float = _parameter(
+    delta: float = parameter(
         0.04,
         text="a cluster whose mean displacement is below this is stationary",
         symbol="δ",
@@ -75,7 +67,7 @@ class Parameters:
         high=10.0,
         slider=(0.0, 0.5, 0.005),
     )
-    n_min: int = _parameter(
+    n_min: int = parameter(
         60,
         text="a cluster with fewer points than this in both clouds is skipped as noise",
         symbol="N_min",
@@ -84,69 +76,49 @@ class Parameters:
         high=100_000,
         slider=(1, 200, 1),
     )
-    method: str = _parameter("paper", text="the estimator")
-    min_cluster_size: int = _parameter(
+    method: str = parameter("paper", text="the estimator")
+    min_cluster_size: int = parameter(
         20, text="smallest cluster that HDBSCAN forms", unit="points", low=2, high=100_000
     )
-    min_samples: int | None = _parameter(
+    min_samples: int | None = parameter(
         None,
         text="neighbours of a core point in HDBSCAN; unset means min_cluster_size",
         unit="points",
         low=1,
         high=100_000,
     )
-    allow_single_cluster: bool = _parameter(
+    allow_single_cluster: bool = parameter(
         False, text="HDBSCAN may put everything into one cluster (one object, nothing else in view)"
     )
-    max_correspondence_distance: float = _parameter(
+    max_correspondence_distance: float = parameter(
         0.10,
         text="ICP pairs points no further apart than this",
         unit="m",
         low=1e-6,
         high=100.0,
     )
-    max_range: float = _parameter(
+    max_range: float = parameter(
         4.0,
         text="points further from their sensor than this, along the zone's ray, are left out",
         unit="m",
         low=1e-6,
         high=1000.0,
     )
+    own: tuple[Any, ...] = ()
 
     def __post_init__(self) -> None:
-        for name, info in PARAMETER_INFO.items():
-            value = getattr(self, name)
-            if isinstance(value, np.generic):  # from an array of values to try; JSON knows none
-                value = value.item()
-                object.__setattr__(self, name, value)
-            _check(name, info, value)
-
-
-PARAMETER_INFO: dict[str, ParameterInfo] = {f.name: f.metadata["info"] for f in fields(Parameters)}
-
-_OPTIONAL = {f.name for f in fields(Parameters) if f.default is None}
-_INTEGERS = {"n", "n_min", "min_cluster_size", "min_samples"}
-
-
-def _check(name: str, info: ParameterInfo, value: object) -> None:
-    if name == "method":
-        if value not in method_names():
+        if self.method not in _METHODS:
             raise ParameterError(
-                f"method must be one of {', '.join(method_names())}, got {value!r}."
+                f"method must be one of {', '.join(_METHODS)}, got {self.method!r}."
             )
-        return
-    if name == "allow_single_cluster":
-        if not isinstance(value, bool):
-            raise ParameterError(f"{name} must be true or false, got {value!r}.")
-        return
-    if value is None and name in _OPTIONAL:
-        return
-    kind = "a whole number" if name in _INTEGERS else "a number"
-    accepted = int if name in _INTEGERS else (int, float)
-    if isinstance(value, bool) or not isinstance(value, accepted):
-        raise ParameterError(f"{name} must be {kind}, got {value!r}.")
-    if not info.low <= value <= info.high:
-        unit = f" {info.unit}" if info.unit else ""
-        raise ParameterError(
-            f"{name} must be between {info.low:g} and {info.high:g}{unit}, got {value!r}."
-        )
+        super().__post_init__()
+        by_class = {type(own): own for own in self.own if own != type(own)()}
+        ordered = sorted(by_class, key=lambda kind: (kind.__module__, kind.__qualname__))
+        object.__setattr__(self, "own", tuple(by_class[kind] for kind in ordered))
+
+    def of(self, kind: type[T]) -> T:
+        """The parameters of a method's own class, its defaults where none were set."""
+        return next((own for own in self.own if type(own) is kind), None) or kind()
+
+
+PARAMETER_INFO: dict[str, ParameterInfo] = infos_of(Parameters)

@@ -3,12 +3,18 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from estimator.cloud import CloudPair
 from estimator.flow import IcpRound, Indices
 from estimator.icp import register
+from estimator.method import SHARED
 from estimator.parameters import Parameters
+from estimator.window import Window
 
 MIN_POINTS = 3
+USED = (
+    *(*SHARED, "n_min", "min_cluster_size", "min_samples", "allow_single_cluster"),
+    "max_correspondence_distance",
+)
+"""Parameters that change clusters and rounds."""
 
 
 def too_few_points(source: Indices, target: Indices, parameters: Parameters) -> str | None:
@@ -26,7 +32,7 @@ def too_few_points(source: Indices, target: Indices, parameters: Parameters) -> 
 
 
 def icp_round(
-    source: Indices, target: Indices, pair: CloudPair, parameters: Parameters
+    source: Indices, target: Indices, window: Window, parameters: Parameters
 ) -> tuple[IcpRound, NDArray[np.float64]]:
     """Lines 8-12 of Algorithm 1: ICP, its transformation, and the displacements D^C it causes.
 
@@ -36,16 +42,16 @@ def icp_round(
         The round, and D^C (len(source), 3) in metres.
     """
     reach = parameters.max_correspondence_distance
-    current = pair.stages.get(
+    current = window.stages.get(
         ("icp", reach, source.tobytes(), target.tobytes()),
-        lambda: _round(source, target, pair, reach),
+        lambda: _round(source, target, window, reach),
     )
-    return current, _displacement(pair.source[source], current.transformation)
+    return current, _displacement(window.source.points[source], current.transformation)
 
 
-def _round(source: Indices, target: Indices, pair: CloudPair, reach: float) -> IcpRound:
-    points = pair.source[source]
-    icp = register(points, pair.target[target], reach)
+def _round(source: Indices, target: Indices, window: Window, reach: float) -> IcpRound:
+    points = window.source.points[source]
+    icp = register(points, window.target.points[target], reach)
     displacement = _displacement(points, icp.transformation)
     return IcpRound(
         source_size=len(source),

@@ -1,100 +1,87 @@
-"""A method run over a whole recording, against its truth."""
+"""Errors of methods over a whole recording, against its truth."""
 
 import math
-from collections.abc import Iterator
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import groupby
+from time import thread_time
 
 import numpy as np
-from numpy.typing import NDArray
 
-from estimator import (
-    MOVING_SPEED,
-    Metrics,
-    Parameters,
-    PooledErrors,
-    SceneFlow,
-    estimate_scene_flow,
-)
-from recordings import PairTruth, Recording, RecordingError
-
-COLUMNS = {
-    "pairs": ("pairs", "d"),
-    "points_with_flow": ("points with flow", "d"),
-    "angle_deg": ("angle deg", ".2f"),
-    "velocity_error": ("velocity error m/s", ".4f"),
-    "coverage": ("coverage", ".3f"),
-    "precision": ("precision", ".3f"),
-    "epe3d": ("EPE3D m", ".4f"),
-    "acc_s": ("AccS", ".3f"),
-    "acc_r": ("AccR", ".3f"),
-    "outliers": ("outliers", ".3f"),
-    "dynamic_iou": ("dynamic IoU", ".3f"),
-    "false_flow": ("false flow", ".4f"),
-}
-"""{attribute of Metrics: (what people read, format)}."""
+from app.analysis.flows import PairEstimator
+from app.analysis.pairs import PreparedPair, prepare_pair
+from estimator import MOVING_SPEED, Metrics, Parameters, PooledErrors
+from recordings import Recording, RecordingError
 
 
-def evaluate(
-    recording: Recording, parameters: Parameters, *, with_resting: bool = True
-) -> Metrics | None:
+@dataclass(frozen=True)
+class Ask:
+    """Parameters to evaluate a recording with.
+
+    Attributes:
+        parameters: of the estimates, method included.
+        resting: whether pairs that do not count are estimated, too. Only `false_flow` needs them,
+            and is NaN without; where the object rests for long, the rest is there sooner.
+    """
+
+    parameters: Parameters
+    resting: bool = True
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Errors with one set of parameters.
+
+    Attributes:
+        metrics: pooled over the recording; None where it has no truth.
+        seconds: of one core; stages that several methods share count for the first of them.
+    """
+
+    metrics: Metrics | None
+    seconds: float
+
+
+@dataclass
+class _Running:
+    """An evaluation under way."""
+
+    ask: Ask
+    estimator: PairEstimator
+    errors: PooledErrors = field(default_factory=PooledErrors)
+    seconds: float = 0.0
+
+
+def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
     """Estimate every pair whose truth is known and pool the errors; None where there is no truth.
+
+    Raises:
+        RecordingError: the file is broken at a pair that counts.
+    """
+    return evaluate_all(recording, [Ask(parameters)])[0].metrics
+
+
+def evaluate_all(recording: Recording, asks: Sequence[Ask]) -> list[Evaluation]:
+    """Evaluate several sets of parameters; a pair's stages that they share are computed once.
 
     Pairs that do not count are left out where the file is broken at them.
 
     Args:
         recording: what is estimated.
-        parameters: of the estimates.
-        with_resting: whether pairs that do not count are estimated, too. Only `false_flow` needs
-            them, and is NaN without; where the object rests for long, the rest is there sooner.
+        asks: in any order.
+
+    Returns:
+        An evaluation for each ask, in their order.
 
     Raises:
         RecordingError: the file is broken at a pair that counts.
     """
     if not recording.has_truth:
-        return None
-    errors = PooledErrors()
-    counting = set(counting_pairs(recording, parameters.n))
-    for pair in zip(range(len(recording)), range(parameters.n, len(recording)), strict=False):
-        if pair in counting:
-            errors.include(_sums(recording, *pair, parameters, counts=True))
-        elif with_resting:
-            # A frame that is broken while nothing moves does not cost the errors.
-            with suppress(RecordingError):
-                errors.include(_sums(recording, *pair, parameters, counts=False))
-    metrics = errors.metrics()
-    return metrics if with_resting else replace(metrics, false_flow=math.nan)
-
-
-def _sums(
-    recording: Recording, source_k: int, target_k: int, parameters: Parameters, *, counts: bool
-) -> NDArray[np.float64]:
-    truth = recording.pair_truth(source_k, target_k, parameters.max_range)
-    if truth is None or not (counts or truth.points is not None):
-        return PooledErrors().sums
-    interval = float(recording.stamps[target_k] - recording.stamps[source_k])
-    flow = estimate_scene_flow(
-        recording.cloud(source_k, parameters.max_range),
-        recording.cloud(target_k, parameters.max_range),
-        interval,
-        parameters,
-    )
-    return pair_errors(flow, interval, truth, counts=counts).sums
-
-
-def pair_errors(
-    flow: SceneFlow, interval: float, truth: PairTruth, *, counts: bool = True
-) -> PooledErrors:
-    """The errors of one pair, whose stamps are `interval` seconds apart.
-
-    Of a pair that does not count there is the false flow alone.
-    """
-    errors = PooledErrors()
-    if counts:
-        errors.add(flow, interval, truth.velocity, truth.points)
-    elif truth.points is not None:
-        errors.add_resting(flow, truth.points)
-    return errors
+        return [Evaluation(None, 0.0) for _ in asks]
+    found: dict[Ask, Evaluation] = {}
+    in_groups = sorted(asks, key=_window_settings)
+    for _, group in groupby(in_groups, key=_window_settings):
+        found |= _evaluate_together(recording, list(dict.fromkeys(group)))
+    return [found[ask] for ask in asks]
 
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
@@ -109,3 +96,58 @@ def moves(recording: Recording, k: int) -> bool:
     """Whether the truth says that the object moves at frame `k`."""
     velocity = recording.truth(k)
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
+
+
+def _window_settings(ask: Ask) -> tuple[int, float]:
+    """Settings that decide which windows are looked at."""
+    return ask.parameters.n, ask.parameters.max_range
+
+
+def _evaluate_together(recording: Recording, asks: Sequence[Ask]) -> dict[Ask, Evaluation]:
+    """Evaluate sets of parameters that look at the same windows, each of which is made once."""
+    parameters = asks[0].parameters
+    windows = _LastPrepared(recording, parameters)
+    running = [_Running(ask, PairEstimator(ask.parameters)) for ask in asks]
+    counting = {k for _, k in counting_pairs(recording, parameters.n)}
+    for k in range(parameters.n, len(recording)):
+        wanted = [run for run in running if k in counting or run.ask.resting]
+        for run in wanted:
+            begin = thread_time()
+            try:
+                _include(run, windows, k, counts=k in counting)
+            except RecordingError:
+                # A frame that is broken while nothing moves does not cost the errors.
+                if k in counting:
+                    raise
+            run.seconds += thread_time() - begin
+    return {run.ask: _finished(run) for run in running}
+
+
+def _include(run: _Running, windows: "_LastPrepared", k: int, *, counts: bool) -> None:
+    truth = windows.at(k).pair.truth
+    if truth is None or not (counts or truth.points is not None):
+        return
+    errors = run.estimator.pair(k, windows.at).pooled_errors(counts=counts)
+    assert errors is not None
+    run.errors.include(errors.sums)
+
+
+def _finished(run: _Running) -> Evaluation:
+    metrics = run.errors.metrics()
+    if not run.ask.resting:
+        metrics = replace(metrics, false_flow=math.nan)
+    return Evaluation(metrics, run.seconds)
+
+
+class _LastPrepared:
+    """The pairs of a recording; the one that was asked for last is kept."""
+
+    def __init__(self, recording: Recording, parameters: Parameters) -> None:
+        self._recording, self._parameters = recording, parameters
+        self._last: PreparedPair | None = None
+
+    def at(self, k: int) -> PreparedPair:
+        """The pair of frame `k`."""
+        if self._last is None or self._last.pair.frame != k:
+            self._last = prepare_pair(self._recording, k, self._parameters)
+        return self._last

@@ -1,17 +1,21 @@
-"""Parameters in a file: saved by the app, taken by the command line."""
+"""Parameters in files and on the command line."""
 
 import json
-from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 from app.errors import InputError
-from estimator import ParameterError, Parameters
+from estimator import ParameterError, Parameters, from_nested, to_nested
+
+
+def flag_of(name: str) -> str:
+    """The command line's flag of a parameter: --n-min of n_min, --rays-sigma of rays.sigma."""
+    return "--" + name.replace("_", "-").replace(".", "-")
 
 
 def to_text(parameters: Parameters) -> str:
     """Parameters as JSON, a line each."""
-    return json.dumps(asdict(parameters), indent=2) + "\n"
+    return json.dumps(to_nested(parameters), indent=2) + "\n"
 
 
 def from_text(text: str, where: str) -> Parameters:
@@ -34,13 +38,8 @@ def from_text(text: str, where: str) -> Parameters:
         content = content["parameters"]
     if not isinstance(content, dict):
         raise InputError(f'{where} must hold parameters, such as {{"n": 8, "gamma": 0.7}}.')
-    known = [field.name for field in fields(Parameters)]
-    if unknown := sorted(set(content) - set(known)):
-        raise InputError(
-            f"{where} names {unknown[0]}, which is no parameter; parameters are {', '.join(known)}."
-        )
     try:
-        return Parameters(**content)
+        return from_nested(content)
     except ParameterError as error:
         raise InputError(f"{where}: {error}") from error
 

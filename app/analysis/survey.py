@@ -1,10 +1,11 @@
-"""A whole recording in numbers: what was estimated at each frame, and how far it is from truth."""
+"""Numbers of every frame of a recording: points that move, their speed, and the errors."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
-from app.analysis.evaluation import counting_pairs, pair_errors
-from estimator import Metrics, Parameters, PooledErrors
+from app.analysis.evaluation import counting_pairs
+from app.analysis.pairs import Pair
+from estimator import METRIC_INFO, Metrics, Parameters, PooledErrors
 from recordings import Recording
 
 _SUMS = len(PooledErrors().sums)
@@ -22,10 +23,7 @@ class Survey:
         empty: (K,) whether it is known that no point is placed in a frame.
         speed: (K,) m/s, mean over the points with a flow.
         true_speed: (K,) m/s of the moving object over the pair, 0 where it rests.
-        angle_deg: (K,) mean angle deviation of the pairs that count, degrees.
-        velocity_error: (K,) m/s, mean of the pairs that count.
-        coverage: (K,) of the pairs that count.
-        precision: (K,) of the pairs that count.
+        metrics: {name as in `METRIC_INFO`: (K,) its values, at pairs that count}.
 
     Every number is NaN where it is not there yet, or where nothing defines it.
     """
@@ -39,10 +37,12 @@ class Survey:
         self._counts = np.zeros(size, dtype=bool)
         for _, k in counting_pairs(recording, parameters.n):
             self._counts[k] = True
-        self.moving, self.speed, self.true_speed, self.angle_deg, self.velocity_error = (
-            np.full(size, np.nan) for _ in range(5)
-        )
-        self.coverage, self.precision = np.full(size, np.nan), np.full(size, np.nan)
+        self.moving, self.speed, self.true_speed = (np.full(size, np.nan) for _ in range(3))
+        self.metrics: dict[str, NDArray[np.float64]] = {
+            name: np.full(size, np.nan)
+            for name, info in METRIC_INFO.items()
+            if info.kind != "count"
+        }
         self._order = coarse_to_fine(size)
         self._at = 0
 
@@ -73,8 +73,8 @@ class Survey:
             if pair.truth is not None:
                 velocity = pair.object_velocity
                 self.true_speed[k] = 0.0 if velocity is None else np.linalg.norm(velocity)
-                counts = bool(self._counts[k])
-                errors = pair_errors(pair.flow, pair.interval, pair.truth, counts=counts)
+                errors = pair.pooled_errors(counts=bool(self._counts[k]))
+                assert errors is not None
                 self._put_errors(k, errors)
         self.done[k] = True
 
@@ -88,10 +88,8 @@ class Survey:
     def _put_errors(self, k: int, errors: PooledErrors) -> None:
         self._sums[k] = errors.sums
         metrics = errors.metrics()
-        self.angle_deg[k] = metrics.angle_deg
-        self.velocity_error[k] = metrics.velocity_error
-        self.coverage[k] = metrics.coverage
-        self.precision[k] = metrics.precision
+        for name, values in self.metrics.items():
+            values[k] = getattr(metrics, name)
 
 
 def coarse_to_fine(size: int) -> list[int]:

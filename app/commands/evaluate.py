@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from app.analysis.evaluation import COLUMNS, evaluate
+from app.analysis.evaluation import evaluate
 from app.analysis.notes import notes
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import (
@@ -22,10 +22,10 @@ from app.commands.flags.recording_flags import (
 )
 from app.commands.output_files import check_place, write
 from app.errors import UserError
-from estimator import Metrics, Parameters
+from estimator import METRIC_INFO, Metrics, Parameters, to_nested
 
-_MEANS = tuple(key for key in COLUMNS if key not in ("pairs", "points_with_flow"))
-_TITLES = [title.split() for title, _ in COLUMNS.values()]
+_MEANS = tuple(key for key, info in METRIC_INFO.items() if info.kind != "count")
+_TITLES = [info.heading.split() for info in METRIC_INFO.values()]
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
     for mean in means:
         print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
     if options.json:
-        table_of_all = {"parameters": asdict(parameters), "recordings": rows, "means": means}
+        table_of_all = {"parameters": to_nested(parameters), "recordings": rows, "means": means}
         write(options.json, (json.dumps(table_of_all, indent=2) + "\n").encode())
     return 0 if any(row["pairs"] is not None for row in rows) else 1
 
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
 def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
     """A recording's row of the table, and sentences about what to know of it."""
     row: dict[str, Any] = {"path": str(path), "scenario": None, "speed": None, "trial": None}
-    row |= dict.fromkeys(COLUMNS)
+    row |= dict.fromkeys(METRIC_INFO)
     try:
         with opening.open(path) as recording:
             if source := recording.provenance:
@@ -127,8 +127,7 @@ def _as_json(metrics: Metrics) -> dict[str, Any]:
 
 def _cells(row: dict[str, Any]) -> list[str]:
     return [
-        "-" if row.get(key) is None else format(row[key], form)
-        for key, (_, form) in COLUMNS.items()
+        "-" if row.get(key) is None else info.text(row[key]) for key, info in METRIC_INFO.items()
     ]
 
 

@@ -11,7 +11,12 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
-from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
+from app.analysis.method_files import method_files
+from app.commands.flags.parameter_flags import (
+    add_parameter_flags,
+    method_name,
+    parameters_from,
+)
 from app.commands.flags.recording_flags import add_recording_flags, opening_from, recording_paths
 from app.commands.flags.simulation_flags import check_simulation
 from app.commands.flags.study_flags import ALL, MORE, add_execution_flags, add_source_flags
@@ -32,6 +37,7 @@ from recordings.simulation import (
     SCENARIOS,
     TRIALS,
 )
+from robot_assets import load_rig
 
 _T = TypeVar("_T")
 _SHOWN = ("table_1", "table_2")
@@ -59,9 +65,13 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         "--method",
         dest="methods",
         nargs="+",
+        type=method_name,
         choices=method_names(),
         default=METHODS,
-        help=f"methods in the same tables (default {' '.join(METHODS)})",
+        help=(
+            f"methods in the same tables (default {' '.join(METHODS)}); one of your own: "
+            "FILE.py:NAME"
+        ),
     )
     parser.add_argument(
         "--sweep",
@@ -104,7 +114,7 @@ def _run(options: argparse.Namespace) -> int:
     plan = _plan(options)
     if options.jobs < 1:
         raise InputError(f"--jobs must be 1 or more, got {options.jobs}.")
-    store = Store(options.out / "results", software_digest())
+    store = Store(options.out / "results", software_digest(plan.method_files))
     works, twice = _once_each(store, plan.works())
     left = [work for work in map(store.missing, works) if work]
     if len(left) < len(works):
@@ -193,7 +203,13 @@ def _plan(options: argparse.Namespace) -> Plan:
     given = [name for name in _OF_SIMULATION if name in options]
     for n in options.sweep:
         replace(parameters, n=n)  # ParameterError where it is out of range
-    plan = Plan(parameters, methods=_once(options.methods), sweep=_once(options.sweep))
+    methods = _once(options.methods)
+    plan = Plan(
+        parameters,
+        methods=methods,
+        sweep=_once(options.sweep),
+        method_files=method_files(methods),
+    )
     if options.recordings:
         if given:
             raise InputError(
@@ -210,7 +226,7 @@ def _plan(options: argparse.Namespace) -> Plan:
                 for path in recording_paths(options.recordings)
             ),
         )
-    for name in ("fixed_frame", "truth_frame", "rig", "urdf"):
+    for name in ("fixed_frame", "truth_frame", "urdf"):
         if getattr(options, name) is not None:
             raise InputError(
                 f"--{name.replace('_', '-')} says how recordings are opened, and there are none "
@@ -227,7 +243,15 @@ def _plan(options: argparse.Namespace) -> Plan:
         noise=wanted.get("noise", "paper"),
         imperfections=tuple(n for n in IMPERFECTIONS if n in wanted.get("imperfections", ())),
         ablation=wanted.get("ablation", False),
+        rig=_checked_rig(options.rig),
     )
+
+
+def _checked_rig(path: Path | None) -> Path | None:
+    """An absolute path, since workers of a cluster run in folders of their own."""
+    if path is not None:
+        load_rig(path)  # RigError where it cannot be used
+    return path and path.absolute()
 
 
 def _scenarios(names: Iterable[str]) -> tuple[str, ...]:

@@ -2,10 +2,9 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from types import MappingProxyType
 
-from estimator import Parameters
+from estimator import Parameters, to_nested
 from recordings import Recording
 
 
@@ -29,9 +28,9 @@ def caption(
         said["Frame"] = f"{frame} of {len(recording) - 1}, at {seconds:.3f} s"
     said["Fixed frame"] = recording.fixed_frame
     said["Method"] = parameters.method
-    said["Parameters"] = json.dumps(asdict(parameters))
+    said["Parameters"] = json.dumps(to_nested(parameters))
     for side, its_parameters in sides.items():
-        said[f"Parameters of {side}"] = json.dumps(asdict(its_parameters))
+        said[f"Parameters of {side}"] = json.dumps(to_nested(its_parameters))
     return said
 
 

@@ -2,11 +2,11 @@
 
 import csv
 import io
-from dataclasses import asdict
 
 import numpy as np
 
 from app.analysis.survey import Survey
+from estimator import METRIC_INFO, to_nested
 from recordings import Recording
 
 
@@ -22,10 +22,9 @@ def to_csv(recording: Recording, survey: Survey) -> str:
         "moving points [count]": _texts(survey.moving, ".0f"),
         "speed estimated [m/s]": _texts(survey.speed, ".6g"),
         "speed true [m/s]": _texts(survey.true_speed, ".6g"),
-        "angle deviation [deg]": _texts(survey.angle_deg, ".6g"),
-        "velocity error [m/s]": _texts(survey.velocity_error, ".6g"),
-        "coverage [1]": _texts(survey.coverage, ".6g"),
-        "precision [1]": _texts(survey.precision, ".6g"),
+    } | {
+        f"{METRIC_INFO[name].title} [{METRIC_INFO[name].unit or 1}]": _texts(values, ".6g")
+        for name, values in survey.metrics.items()
     }
     text = io.StringIO()
     text.write(f"# {_heading(recording, survey)}\n")
@@ -36,7 +35,9 @@ def to_csv(recording: Recording, survey: Survey) -> str:
 
 
 def _heading(recording: Recording, survey: Survey) -> str:
-    parameters = "; ".join(f"{name}={value}" for name, value in asdict(survey.parameters).items())
+    parameters = "; ".join(
+        f"{name}={value}" for name, value in to_nested(survey.parameters).items()
+    )
     origin = "simulated" if recording.simulated else "measured"
     name = " ".join(recording.path.name.split())  # a line of its own, whatever a file is called
     said = f"Tofscope; recording {name}; {origin}; {parameters}"

@@ -1,10 +1,10 @@
 """What was run, in words: conditions, commands and versions."""
 
 import shlex
-from dataclasses import fields
 
+from app.analysis.parameter_files import flag_of
 from app.study.plan import Plan
-from estimator import PARAMETER_INFO, Parameters
+from estimator import PARAMETER_INFO, ParameterInfo, find_method, values_of
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 
 
@@ -13,8 +13,9 @@ def conditions(plan: Plan) -> str:
     if plan.recordings is not None:
         return f"Recordings that were given. {opening_text(plan)} {parameters_text(plan)}."
     also = ", ".join(plan.imperfections) or "none"
+    rig = f"rig {plan.rig.name}, " if plan.rig else ""
     return (
-        f"Simulated, not measured: noise model {plan.noise}, imperfections {also}, seed "
+        f"Simulated, not measured: {rig}noise model {plan.noise}, imperfections {also}, seed "
         f"{plan.seed}. {parameters_text(plan)}."
     )
 
@@ -44,15 +45,22 @@ def truth_frame_text(plan: Plan) -> str:
 
 
 def parameters_text(plan: Plan) -> str:
-    """Every parameter with its value."""
-    return ", ".join(
-        f"{field.name} = {value:g} {PARAMETER_INFO[field.name].unit}".strip()
-        if isinstance(value := getattr(plan.parameters, field.name), int | float)
-        and not isinstance(value, bool)
-        else f"{field.name} = {'unset' if value is None else str(value).lower()}"
-        for field in fields(Parameters)
-        if field.name != "method"
-    )
+    """Every parameter of the study's methods with its value."""
+    values = values_of(plan.parameters)
+    return ", ".join(_written(name, values[name], info) for name, info in _infos(plan).items())
+
+
+def _written(name: str, value: object, info: ParameterInfo) -> str:
+    if info.kind in (int, float) and value is not None:
+        return f"{name} = {value:g} {info.unit}".strip()
+    return f"{name} = {'unset' if value is None else str(value).lower()}"
+
+
+def _infos(plan: Plan) -> dict[str, ParameterInfo]:
+    """{name: description} of the parameters of all methods, shared ones first."""
+    infos = {n: info for method in plan.methods for n, info in find_method(method).infos().items()}
+    shared = {name: infos[name] for name in PARAMETER_INFO if name in infos}
+    return shared | infos
 
 
 def simulator_texts(plan: Plan) -> list[str]:
@@ -65,16 +73,16 @@ def simulator_texts(plan: Plan) -> list[str]:
 
 def study_command(plan: Plan) -> str:
     """The command that evaluates them."""
-    flags = []
-    for field in fields(Parameters):
-        value = getattr(plan.parameters, field.name)
-        name = field.name.replace("_", "-")
-        if field.name == "method" or value == field.default:
+    flags: list[str] = []
+    values = values_of(plan.parameters)
+    for name, info in _infos(plan).items():
+        value, flag = values[name], flag_of(name)
+        if value == info.default:
             continue
         if isinstance(value, bool):
-            flags.append(f"--{name}" if value else f"--no-{name}")
+            flags.append(flag if value else f"--no-{flag.removeprefix('--')}")
         else:
-            flags += [f"--{name}", str(value)]
+            flags += [flag, str(value)]
     return shlex.join(
         [
             *("tofscope", "study", "--recordings", "recordings", "--method", *plan.methods),
@@ -92,6 +100,7 @@ def simulate_command(plan: Plan) -> str:
             *("--trial", *map(str, plan.trials)),
             *("--seed", str(plan.seed), "--noise", plan.noise),
             *(["--imperfections", *plan.imperfections] if plan.imperfections else []),
+            *(["--rig", str(plan.rig)] if plan.rig else []),
             *("--out", "recordings"),
         ]
     )

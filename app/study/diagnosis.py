@@ -1,14 +1,16 @@
 """Why nothing got a flow, and what went wrong where errors are large."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.evaluation import counting_pairs
+from app.analysis.flows import PairEstimator
+from app.analysis.pairs import Pair, prepare_pair
 from app.study.words import span
-from estimator import MOVING_SPEED, Label, Parameters, SceneFlow, estimate_scene_flow
+from estimator import MOVING_SPEED, Label, Parameters, SceneFlow
 from recordings import Recording
 
 _WRONG = 0.5
@@ -24,15 +26,15 @@ def why_no_flow(recording: Recording, parameters: Parameters) -> str | None:
     if not pairs:
         return None
     source_k, target_k = pairs[len(pairs) // 2]
-    truth = recording.pair_truth(source_k, target_k, parameters.max_range)
-    if truth is None or truth.points is None:
+    pair = next(_estimated(recording, parameters, [target_k]))
+    if pair.truth is None or pair.truth.points is None or pair.flow is None:
         return None
-    flow = _flow(recording, source_k, target_k, parameters)
-    moving = np.linalg.norm(truth.points, axis=1) > MOVING_SPEED
+    flow, moving = pair.flow, np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
     if not moving.any():
         return None
     cluster, count = Counter(flow.cluster[moving].tolist()).most_common(1)[0]
-    reason = "in no cluster." if cluster < 0 else flow.clusters[cluster].reason
+    reasons = {result.index: result.reason for result in flow.clusters}
+    reason = reasons.get(cluster, "in no cluster.")
     return (
         f"Frames {source_k} and {target_k}, {count} of {int(moving.sum())} moving points: {reason}"
     )
@@ -47,14 +49,12 @@ def what_went_wrong(recording: Recording, parameters: Parameters) -> str | None:
     fitness: list[float] = []
     displacements: list[float] = []
     ways: list[float] = []
-    for source_k, target_k in counting_pairs(recording, parameters.n):
-        truth = recording.pair_truth(source_k, target_k, parameters.max_range)
-        if truth is None or truth.points is None:
+    counting = [target_k for _, target_k in counting_pairs(recording, parameters.n)]
+    for pair in _estimated(recording, parameters, counting):
+        if pair.truth is None or pair.truth.points is None or pair.flow is None:
             continue
-        flow = _flow(recording, source_k, target_k, parameters)
-        interval = float(recording.stamps[target_k] - recording.stamps[source_k])
-        off = list(_misaligned(flow, truth.points, interval))
-        found += bool(flow.moving.any())
+        off = list(_misaligned(pair.flow, pair.truth.points, pair.interval))
+        found += bool(pair.flow.moving.any())
         wrong += bool(off)
         for result_fitness, displacement, way in off:
             fitness.append(result_fitness)
@@ -88,10 +88,9 @@ def _misaligned(
             yield result.fitness, result.mean_displacement, way
 
 
-def _flow(recording: Recording, source_k: int, target_k: int, parameters: Parameters) -> SceneFlow:
-    return estimate_scene_flow(
-        recording.cloud(source_k, parameters.max_range),
-        recording.cloud(target_k, parameters.max_range),
-        float(recording.stamps[target_k] - recording.stamps[source_k]),
-        parameters,
-    )
+def _estimated(
+    recording: Recording, parameters: Parameters, frames: Iterable[int]
+) -> Iterator[Pair]:
+    estimator = PairEstimator(parameters)
+    for k in frames:
+        yield estimator.pair(k, lambda k: prepare_pair(recording, k, parameters))

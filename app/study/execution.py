@@ -4,9 +4,11 @@ import signal
 import tempfile
 import warnings
 from collections.abc import Generator, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from app.analysis.method_files import load_method
 from app.errors import InputError
 from app.study.software import software_digest
 from app.study.work import Outcome, Work, do
@@ -36,7 +38,7 @@ def outcomes(
     with tempfile.TemporaryDirectory(prefix="tofscope-study-") as scratch:
         if jobs == 1 or len(works) < 2:
             for work in works:
-                yield do(work, software_digest(), Path(scratch))
+                yield do(work, software_digest(work.method_files), Path(scratch))
         else:
             yield from _on_cores(works, min(jobs, len(works)), Path(scratch))
 
@@ -44,9 +46,11 @@ def outcomes(
 def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     from joblib import Parallel, delayed, parallel_config
 
-    with parallel_config("loky", inner_max_num_threads=1, initializer=_leave_ctrl_c_to_us):
+    files = _method_files(works)
+    begin = partial(_begin_worker, files)
+    with parallel_config("loky", inner_max_num_threads=1, initializer=begin):
         done: Any = Parallel(n_jobs=jobs, return_as="generator_unordered")(
-            delayed(do)(work, software_digest(), scratch) for work in works
+            delayed(do)(work, software_digest(files), scratch) for work in works
         )
     try:
         yield from done
@@ -57,9 +61,33 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
             done.close()
 
 
-def _leave_ctrl_c_to_us() -> None:
-    """A terminal sends Ctrl-C to every process; only the one that started the others answers."""
+def _begin_worker(method_files: tuple[str, ...]) -> None:
+    """Load methods before work with their parameters arrives, and leave Ctrl-C to the parent.
+
+    A terminal sends it to every process, and only the one that started the others answers.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for text in method_files:
+        load_method(text)
+
+
+def _method_files(works: list[Work]) -> tuple[str, ...]:
+    return works[0].method_files if works else ()
+
+
+def _method_loader(method_files: tuple[str, ...]) -> Any:  # noqa: ANN401 (of an optional package)
+    """Plugin of Dask that loads methods in every worker, those that join later too."""
+    from distributed import WorkerPlugin
+
+    class MethodLoader(WorkerPlugin):
+        name = "tofscope-methods"
+
+        def setup(self, worker: object) -> None:
+            del worker
+            for text in method_files:
+                load_method(text)
+
+    return MethodLoader()
 
 
 def _on_dask(works: list[Work], address: str) -> Iterator[Outcome]:
@@ -73,8 +101,11 @@ def _on_dask(works: list[Work], address: str) -> Iterator[Outcome]:
         client = Client(address, timeout=_PATIENCE)
     except (OSError, ValueError) as error:
         raise InputError(f"There is no Dask scheduler at {address}.") from error
+    files = _method_files(works)
     with client:
-        futures = client.map(do, works, software=software_digest(), pure=False)
+        if files:
+            client.register_plugin(_method_loader(files))
+        futures = client.map(do, works, software=software_digest(files), pure=False)
         by_future = dict(zip(futures, works, strict=True))
         try:
             for future in as_completed(futures):

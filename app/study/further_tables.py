@@ -3,24 +3,20 @@
 from collections.abc import Iterable, Iterator
 from itertools import product
 
-from app.analysis.evaluation import COLUMNS
 from app.study.conditions import truth_frame_text
-from app.study.paper import FRAME, experiment_label
+from app.study.paper import FRAME, LABELS, experiment_label
 from app.study.plan import Plan
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
 from app.study.words import span
 from app.study.work import SWEPT_SCENARIO, Simulated
-from estimator import MOVING_SPEED
+from estimator import METRIC_INFO, MOVING_SPEED
 from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
 
-_COUNTS = ("pairs", "points_with_flow")
+_COUNTS = tuple(key for key, info in METRIC_INFO.items() if info.kind == "count")
 _PAPERS = ("angle_deg", "velocity_error")
 _FOUND = ("coverage", "precision", "false_flow")
-_METRICS = {
-    key: Column(key, title, "d" if key in _COUNTS else form)
-    for key, (title, form) in COLUMNS.items()
-}
+_METRICS = {key: Column(key, info.heading, info.form) for key, info in METRIC_INFO.items()}
 
 
 def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
@@ -71,12 +67,12 @@ def _with_std(keys: Iterable[str]) -> Iterator[Column]:
     for key in keys:
         yield _METRICS[key]
         if key in _PAPERS:
-            yield Column(f"{key}_std", "std", COLUMNS[key][1])
+            yield Column(f"{key}_std", "std", METRIC_INFO[key].form)
 
 
 def metrics_table(plan: Plan, rows: list[Row]) -> Table:
     """The field's metrics of every experiment, means over trials."""
-    shown = [key for key in COLUMNS if key not in _PAPERS]
+    shown = [key for key in METRIC_INFO if key not in _PAPERS]
     lines: list[dict[str, Value]] = []
     scenarios = list(dict.fromkeys(row.scenario for row in rows if row.scenario))
     for scenario, method in product(scenarios, plan.methods):
@@ -171,16 +167,16 @@ def ablation_table(plan: Plan, rows: list[Row]) -> Table | None:
             "angle_deg_std": std(here, "angle_deg"),
             "velocity_error_std": std(here, "velocity_error"),
         }
-        lines.append(line | {key: mean(here, key) for key in COLUMNS if key not in _COUNTS})
+        lines.append(line | {key: mean(here, key) for key in METRIC_INFO if key not in _COUNTS})
     first = plan.ablation_sources()[0]
     assert isinstance(first, Simulated)
     trials = len({row.trial for row in rows})
     columns = [Column(key, key.capitalize()) for key in ("noise", "imperfection", "method")]
-    columns += _with_std(key for key in COLUMNS if key not in _COUNTS)
+    columns += _with_std(key for key in METRIC_INFO if key not in _COUNTS)
     return Table(
         "ablation",
         "What noise models and imperfections do to the errors",
-        f"A part of the study: {experiment_label(first.scenario, '')[:-3]} experiment at "
+        f"A part of the study: {LABELS.get(first.scenario, first.scenario)} experiment at "
         f"{first.speed:g} m/s, trials 1 to {trials}, n = {plan.parameters.n}. Each noise model "
         f"without imperfections, then each imperfection alone with the noise model {plan.noise}"
         f"{': ' + '; '.join(f'{i.name}, {i.text}' for i in IMPERFECTIONS.values())}.",
@@ -206,7 +202,7 @@ def recordings_table(plan: Plan, rows: list[Row]) -> Table:
             "speed": row.speed,
             "trial": row.trial,
             "method": row.parameters.method,
-            **{key: row.metrics.get(key) for key in COLUMNS},
+            **{key: row.metrics.get(key) for key in METRIC_INFO},
         }
         for row in rows
         if row.parameters.n == plan.parameters.n

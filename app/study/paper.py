@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
+from estimator import find_method
+
 LABELS = {
     "towards": "y-axis",
     "sideways": "x-axis",
@@ -13,8 +15,6 @@ LABELS = {
 """{scenario: how the paper's tables call it}."""
 FRAME = 1 / 15
 """Seconds from frame to frame."""
-METHOD_LABELS = {"paper": "Algorithm 1"}
-"""{method: how tables call it}; any other is called by its name."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def paper_numbers() -> PaperNumbers:
 
 def method_label(method: str) -> str:
     """How tables and figures call a method."""
-    return METHOD_LABELS.get(method, method)
+    return find_method(method).label
 
 
 def experiment_label(scenario: str, method: str) -> str:

@@ -3,8 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import product
+from pathlib import Path
 
-from app.study.work import SWEPT_SCENARIO, Ask, Recorded, Simulated, Source, Work
+from app.analysis.evaluation import Ask
+from app.study.work import SWEPT_SCENARIO, Recorded, Simulated, Source, Work
 from estimator import Parameters
 from recordings.simulation import (
     IMPERFECTIONS,
@@ -39,6 +41,8 @@ class Plan:
         imperfections: names, in the registry's order.
         ablation: whether noise models and imperfections are compared.
         recordings: that are taken instead of simulated ones, None to simulate.
+        rig: file of the rig to simulate with, None for the paper's.
+        method_files: FILE.py:NAME of methods that are not registered by themselves.
     """
 
     parameters: Parameters
@@ -52,14 +56,17 @@ class Plan:
     imperfections: tuple[str, ...] = ()
     ablation: bool = False
     recordings: tuple[Recorded, ...] | None = None
+    rig: Path | None = None
+    method_files: tuple[str, ...] = ()
 
     def works(self) -> list[Work]:
         """Every unit of work, a recording once, in a fixed order."""
         asks = tuple(Ask(parameters) for parameters in self._parameters([self.parameters.n]))
         sweep = self._parameters(self.sweep)
-        works = {source: Work(source, asks, sweep) for source in self.sources()}
+        files = self.method_files
+        works = {source: Work(source, asks, sweep, files) for source in self.sources()}
         for source in self.ablation_sources():
-            works.setdefault(source, Work(source, asks))
+            works.setdefault(source, Work(source, asks, method_files=files))
         return list(works.values())
 
     def sources(self) -> list[Source]:
@@ -67,7 +74,7 @@ class Plan:
         if self.recordings is not None:
             return list(self.recordings)
         return [
-            Simulated(name, speed, trial, self.seed, self.noise, self.imperfections)
+            Simulated(name, speed, trial, self.seed, self.noise, self.imperfections, self.rig)
             for name in self.scenarios
             for speed, trial in product(self._speeds(name), self.trials)
         ]
@@ -77,7 +84,7 @@ class Plan:
         speeds = self._speeds(SWEPT_SCENARIO)
         speed = ABLATION_SPEED if ABLATION_SPEED in speeds else speeds[0]
         return [
-            Simulated(SWEPT_SCENARIO, speed, trial, self.seed, noise, imperfections)
+            Simulated(SWEPT_SCENARIO, speed, trial, self.seed, noise, imperfections, self.rig)
             for noise, imperfections in self.conditions()
             for trial in self.trials[:_ABLATION_TRIALS]
         ]

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,7 @@ from app.study.software import software_digest, versions
 from app.study.table import Table
 from app.study.text_files import as_csv, as_markdown
 from app.study.work import Outcome
+from estimator import to_nested
 
 PAGE = "index.html"
 _TABLES = "tables"
@@ -133,12 +134,12 @@ def _as_json(study: Study, tables: Sequence[Table]) -> dict[str, Any]:
     return {
         "simulated": plan.recordings is None,
         "methods": plan.methods,
-        "parameters": {k: v for k, v in asdict(plan.parameters).items() if k != "method"},
+        "parameters": {k: v for k, v in to_nested(plan.parameters).items() if k != "method"},
         "seed": plan.seed if plan.recordings is None else None,
         "noise": plan.noise if plan.recordings is None else None,
         "imperfections": plan.imperfections if plan.recordings is None else None,
         "versions": versions(),
-        "software": software_digest(),
+        "software": software_digest(plan.method_files),
         "paper": paper_numbers().source,
         "tables": {table.name: table.rows for table in tables},
         "not_evaluated": list(study.failures),

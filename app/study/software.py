@@ -6,10 +6,10 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-import app
 import estimator
 import recordings
 import robot_assets
+from app.analysis.method_files import content_digest
 
 _PACKAGES = (
     "numpy",
@@ -38,14 +38,25 @@ def versions() -> dict[str, str]:
     return found
 
 
+_OF_APP = (
+    *(f"analysis/{name}.py" for name in ("pairs", "flows", "evaluation")),
+    *(f"study/{name}.py" for name in ("work", "diagnosis", "words")),
+)
+"""Files of `app` that decide results."""
+
+
 @cache
-def software_digest() -> str:
-    """A digest of our source and of `versions`: results of another one are not these."""
+def software_digest(method_files: tuple[str, ...] = ()) -> str:
+    """A digest of our source, of `versions` and of users' methods, by FILE.py:NAME each.
+
+    Results of other software are not these.
+    """
     digest = hashlib.sha256(repr(sorted(versions().items())).encode())
     for room in (estimator, recordings, robot_assets):
         folder = Path(str(room.__file__)).parent
         for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.toml")]):
             digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
-    for name in ("analysis/evaluation.py", "study/work.py", "study/diagnosis.py", "study/words.py"):
-        digest.update((Path(str(app.__file__)).parent / name).read_bytes())
+    for name in _OF_APP:
+        digest.update((Path(__file__).parent.parent / name).read_bytes())
+    digest.update(content_digest(method_files).encode())
     return digest.hexdigest()

@@ -8,9 +8,10 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
+from app.analysis.evaluation import Ask
 from app.errors import InputError
-from app.study.work import Ask, Outcome, Recorded, Result, Source, Work
-from estimator import Parameters
+from app.study.work import Outcome, Recorded, Result, Source, Work
+from estimator import from_nested, to_nested
 
 _LONGEST_NAME = 80
 """Bytes of a recording's name in that of its file; file systems take 255 in all."""
@@ -19,7 +20,7 @@ _LONGEST_NAME = 80
 class Store:
     """One JSON file per recording, named by all that decides its results.
 
-    That is: scenario, speed, trial, seed, noise model and imperfections, or the content of the
+    That is: scenario, speed, trial, seed, noise model, imperfections and rig, or the content of the
     file and how it is opened; and the software. Parameters and method are kept with each result.
 
     Args:
@@ -56,7 +57,7 @@ class Store:
             return work
         known = {result.ask for result in found.results}
         left = tuple(ask for ask in work.wanted(found.scenario) if ask not in known)
-        return Work(work.source, left) if left else None
+        return Work(work.source, left, method_files=work.method_files) if left else None
 
     def keep(self, outcome: Outcome) -> None:
         """Add what came of a unit of work; failures are not kept, so that they are tried again.
@@ -75,6 +76,8 @@ class Store:
         path = self._path(outcome.source)
         content = asdict(whole)
         content["source"] = _as_json(outcome.source)
+        for written, result in zip(content["results"], whole.results, strict=True):
+            written["ask"]["parameters"] = to_nested(result.ask.parameters)
         # Written beside and renamed: whoever stops in between leaves the old file or the new one.
         draft = path.with_suffix(".draft")
         try:
@@ -93,7 +96,7 @@ class Store:
             content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
             results = tuple(
                 Result(
-                    Ask(Parameters(**r["ask"]["parameters"]), r["ask"]["resting"]),
+                    Ask(from_nested(r["ask"]["parameters"]), r["ask"]["resting"]),
                     r["metrics"],
                     r["seconds"],
                     r["why"],
@@ -115,9 +118,9 @@ class Store:
     def digest(self, source: Source) -> str:
         """Of all that decides a recording's results: equal where they are equal."""
         identity = _as_json(source) | {"software": self._software}
-        if isinstance(source, Recorded):
-            for key in ("path", "rig", "urdf"):
-                identity[key] = self._content(getattr(source, key))
+        files = ("path", "rig", "urdf") if isinstance(source, Recorded) else ("rig",)
+        for key in files:
+            identity[key] = self._content(getattr(source, key))
         return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
 
     def _path(self, source: Source) -> Path:

@@ -10,7 +10,7 @@ from time import thread_time
 
 from threadpoolctl import threadpool_limits
 
-from app.analysis.evaluation import evaluate
+from app.analysis.evaluation import Ask, Evaluation, evaluate_all
 from app.analysis.notes import notes
 from app.errors import UserError
 from app.study.diagnosis import what_went_wrong, why_no_flow
@@ -37,6 +37,7 @@ class Simulated:
         seed: of the random numbers.
         noise: name of the noise model.
         imperfections: names, in the registry's order.
+        rig: file of the rig that it is simulated with, None for the paper's.
     """
 
     scenario: str
@@ -45,6 +46,7 @@ class Simulated:
     seed: int = 0
     noise: str = "paper"
     imperfections: tuple[str, ...] = ()
+    rig: Path | None = None
 
     @property
     def name(self) -> str:
@@ -72,19 +74,6 @@ Source = Simulated | Recorded
 
 
 @dataclass(frozen=True)
-class Ask:
-    """What a recording is evaluated with.
-
-    Attributes:
-        parameters: of the estimates, method included.
-        resting: whether pairs at which nothing moves are estimated, too (for `false_flow`).
-    """
-
-    parameters: Parameters
-    resting: bool = True
-
-
-@dataclass(frozen=True)
 class Work:
     """A recording and what it is evaluated with.
 
@@ -92,11 +81,13 @@ class Work:
         source: the recording.
         asks: for every recording.
         sweep: parameters that are tried where the recording shows the swept scenario.
+        method_files: FILE.py:NAME of methods that are not registered by themselves.
     """
 
     source: Source
     asks: tuple[Ask, ...]
     sweep: tuple[Parameters, ...] = ()
+    method_files: tuple[str, ...] = ()
 
     def wanted(self, scenario: str | None) -> tuple[Ask, ...]:
         """What a recording of a scenario is evaluated with, each set of parameters once."""
@@ -160,7 +151,7 @@ def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
         software: `software_digest` of whoever asks: a cluster may have another version.
         scratch: folder for the simulated file, the system's own where None.
     """
-    if software != software_digest():
+    if software != software_digest(work.method_files):
         return Outcome(
             work.source,
             failure=f"{work.source.name}: the worker has another version of Tofscope or of a "
@@ -202,7 +193,7 @@ def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, f
             noise=NOISE_MODELS[source.noise],
             imperfections=source.imperfections,
             robot=load_robot(),
-            rig=load_rig(),
+            rig=load_rig(source.rig),
         )
         with open_recording(path) as recording:
             yield recording, thread_time() - begin
@@ -218,23 +209,25 @@ def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
             trial=made.trial,
             noise=made.noise.partition(":")[0],
         )
-    results = tuple(_result(recording, ask) for ask in work.wanted(outcome.scenario))
+    asks = work.wanted(outcome.scenario)
+    evaluations = evaluate_all(recording, asks)
+    results = tuple(_result(recording, *each) for each in zip(asks, evaluations, strict=True))
     # After the evaluation: some warnings come up only when frames are read.
     return replace(outcome, results=results, warnings=tuple(notes(recording)))
 
 
-def _result(recording: Recording, ask: Ask) -> Result:
-    begin = thread_time()
-    metrics = evaluate(recording, ask.parameters, with_resting=ask.resting)
+def _result(recording: Recording, ask: Ask, evaluation: Evaluation) -> Result:
+    metrics = evaluation.metrics
     if metrics is None:
-        return Result(ask, None, thread_time() - begin)
+        return Result(ask, None, evaluation.seconds)
+    begin = thread_time()
     values = {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
     why = None
     if not metrics.points_with_flow:
         why = why_no_flow(recording, ask.parameters)
     elif ask.resting and _is_far_off(metrics, recording):
         why = what_went_wrong(recording, ask.parameters)
-    return Result(ask, values, thread_time() - begin, why)
+    return Result(ask, values, evaluation.seconds + thread_time() - begin, why)
 
 
 def _is_far_off(metrics: Metrics, recording: Recording) -> bool:

@@ -1,20 +1,64 @@
-"""The estimator's parameters as flags of the command line, one flag per field."""
+"""The estimator's parameters as flags of the command line, one flag per parameter."""
 
 import argparse
-from collections.abc import Collection
-from dataclasses import fields, replace
+from collections.abc import Collection, Sequence
+from contextlib import suppress
 from pathlib import Path
 
-from app.analysis.parameter_files import load
-from estimator import PARAMETER_INFO, ParameterInfo, Parameters, method_names
+from app.analysis.method_files import is_method_file, load_method
+from app.analysis.parameter_files import flag_of, load
+from app.errors import InputError
+from estimator import (
+    PARAMETER_INFO,
+    ParameterInfo,
+    Parameters,
+    all_methods,
+    changed,
+    method_names,
+)
+
+_METHOD_FLAG = "--method"
+
+
+def register_method_files(arguments: Sequence[str]) -> None:
+    """Register methods that follow --method as FILE.py:NAME, before flags are made of parameters.
+
+    A file that cannot be used is left to the flag itself, whose error says where it was given.
+    """
+    after_flag = False
+    for argument in arguments:
+        if argument.startswith("-"):
+            flag, _, value = argument.partition("=")
+            after_flag = flag == _METHOD_FLAG
+        else:
+            value = argument
+        if after_flag and is_method_file(value):
+            with suppress(InputError):
+                load_method(value)
+
+
+def method_name(text: str) -> str:
+    """The registered method that --method says by its name or as FILE.py:NAME.
+
+    Raises:
+        ArgumentTypeError: the file cannot be used.
+    """
+    if not is_method_file(text):
+        return text
+    try:
+        return load_method(text)
+    except InputError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[str] = ()) -> None:
-    """Add --parameters FILE, and a flag for every field of `Parameters`, named like the field.
+    """Add --parameters FILE, and a flag for every parameter, named like it.
+
+    Parameters of a method's own are flags that begin with its name.
 
     Args:
         parser: of a subcommand.
-        leave_out: fields that the subcommand has a flag of its own for.
+        leave_out: parameters that the subcommand has a flag of its own for.
     """
     group = parser.add_argument_group("parameters of the estimator")
     group.add_argument(
@@ -23,22 +67,22 @@ def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[s
         metavar="FILE",
         help="parameters as the app saves them (JSON); flags beside it win",
     )
-    for field in fields(Parameters):
-        if field.name in leave_out:
-            continue
-        flag, info = "--" + field.name.replace("_", "-"), PARAMETER_INFO[field.name]
-        text = _help(info, field.default)
-        # Only flags that are given are set, so that they can win over a file.
-        if field.name == "method":
-            group.add_argument(flag, choices=method_names(), default=argparse.SUPPRESS, help=text)
-        elif isinstance(field.default, bool):
+    for name, info in PARAMETER_INFO.items():
+        if name == "method" and name not in leave_out:
             group.add_argument(
-                flag, action=argparse.BooleanOptionalAction, default=argparse.SUPPRESS, help=text
+                _METHOD_FLAG,
+                type=method_name,
+                choices=method_names(),
+                default=argparse.SUPPRESS,
+                help=f"{_help(info)}; a method of your own: FILE.py:NAME",
             )
-        else:
-            kind = float if isinstance(field.default, float) else int
-            name = info.unit.upper() or "VALUE"
-            group.add_argument(flag, type=kind, metavar=name, default=argparse.SUPPRESS, help=text)
+        elif name not in leave_out:
+            _add_flag(group, name, info)
+    for method in all_methods():
+        own = {name: info for name, info in method.infos().items() if name not in PARAMETER_INFO}
+        group = parser.add_argument_group(f"parameters of {method.name}") if own else group
+        for name, info in own.items():
+            _add_flag(group, name, info)
 
 
 def parameters_from(options: argparse.Namespace) -> Parameters:
@@ -49,12 +93,25 @@ def parameters_from(options: argparse.Namespace) -> Parameters:
         InputError: the file cannot be used.
     """
     parameters = load(options.parameters) if options.parameters else Parameters()
-    given = {f.name: getattr(options, f.name) for f in fields(Parameters) if f.name in options}
-    return replace(parameters, **given)
+    names = [*PARAMETER_INFO, *(name for method in all_methods() for name in method.infos())]
+    return changed(parameters, {n: getattr(options, n) for n in names if n in options})
 
 
-def _help(info: ParameterInfo, default: object) -> str:
+def _add_flag(group: argparse._ArgumentGroup, name: str, info: ParameterInfo) -> None:
+    # Only flags that are given are set, so that they can win over a file.
+    flag, text, unset = flag_of(name), _help(info), argparse.SUPPRESS
+    if info.kind is bool:
+        action = argparse.BooleanOptionalAction
+        group.add_argument(flag, dest=name, action=action, default=unset, help=text)
+    elif info.choices:
+        group.add_argument(flag, dest=name, choices=info.choices, default=unset, help=text)
+    else:
+        unit = info.unit.upper() or "VALUE"
+        group.add_argument(flag, dest=name, type=info.kind, metavar=unit, default=unset, help=text)
+
+
+def _help(info: ParameterInfo) -> str:
     symbol = f"{info.symbol}: " if info.symbol else ""
-    unit = f" {info.unit}" if info.unit and default is not None else ""
-    shown = "unset" if default is None else default
+    unit = f" {info.unit}" if info.unit and info.default is not None else ""
+    shown = "unset" if info.default is None else info.default
     return f"{symbol}{info.text} (default {shown}{unit})".replace("%", "%%")

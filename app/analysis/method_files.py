@@ -1,0 +1,95 @@
+"""Methods in files of a user's own, named as FILE.py:NAME on the command line."""
+
+import hashlib
+import importlib.util
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from app.errors import InputError
+from estimator import Method, MethodError, register
+
+_SEPARATOR = ".py:"
+_loaded: dict[str, Method] = {}
+
+
+def is_method_file(text: str) -> bool:
+    """Whether a text names a method in a file, and not one that is registered."""
+    return _SEPARATOR in text
+
+
+def load_method(text: str) -> str:
+    """Register the method that FILE.py:NAME names, and return the name it is registered under.
+
+    NAME is a `Method`, or a function (window, parameters) -> SceneFlow, which is registered under
+    the file's name and its own. The file is run: only a command line may name one.
+
+    Raises:
+        InputError: there is no such file or name in it, or it cannot be registered.
+    """
+    path, name = located(text)
+    key = f"{path}:{name}"
+    if key not in _loaded:
+        found = getattr(_module(path), name, None)
+        method = found if isinstance(found, Method) else _of_function(path, name, found)
+        try:
+            register(method)
+        except MethodError as error:
+            raise InputError(f"{text}: {error}") from error
+        _loaded[key] = method
+    return _loaded[key].name
+
+
+def method_files(names: Iterable[str]) -> tuple[str, ...]:
+    """FILE.py:NAME, with an absolute path, of those of some methods that came from files."""
+    wanted = set(names)
+    return tuple(text for text, method in _loaded.items() if method.name in wanted)
+
+
+def located(text: str) -> tuple[Path, str]:
+    """The absolute path of the file and the name in it that FILE.py:NAME names.
+
+    Raises:
+        InputError: there is no such file.
+    """
+    file, _, name = text.rpartition(":")
+    path = Path(file).absolute()
+    if not path.is_file():
+        raise InputError(f"There is no file {file} for the method {text}; check the spelling.")
+    return path, name
+
+
+def content_digest(texts: Iterable[str]) -> str:
+    """A digest of what is in the files of some methods, "" of none."""
+    contents = [located(text)[0].read_bytes() for text in texts]
+    return hashlib.sha256(b"\0".join(contents)).hexdigest() if contents else ""
+
+
+def _module(path: Path) -> ModuleType:
+    # The same name in every process, so that objects of its classes can be sent to workers.
+    name = f"tofscope_method_{hashlib.sha256(str(path).encode()).hexdigest()[:16]}"
+    if name in sys.modules:
+        return sys.modules[name]
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None  # its name ends in .py
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise InputError(f"{path} cannot be run: {type(error).__name__}: {error}.") from error
+    return module
+
+
+def _of_function(path: Path, name: str, found: Any) -> Method:  # noqa: ANN401 (anything in a file)
+    if not callable(found):
+        raise InputError(
+            f"{path} has no method {name}; it must be a Method, or a function "
+            "(window, parameters) -> SceneFlow."
+        )
+    flow: Callable[..., Any] = found
+    return Method(f"{path.stem}-{name}", flow, title=f"{path.name}:{name}")

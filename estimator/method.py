@@ -1,0 +1,105 @@
+"""Description of a method, its tracker, and the register of methods by name."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from estimator.flow import SceneFlow
+from estimator.parameter_info import CheckedParameters, ParameterInfo, infos_of
+from estimator.parameters import PARAMETER_INFO, Parameters, add_method_name
+from estimator.window import Window
+
+SHARED = ("n", "max_range")
+"""Parameters of every method."""
+
+
+class MethodError(Exception):
+    """A method that cannot be registered; the sentence says why."""
+
+
+class Tracker(Protocol):
+    """A method with memory: it sees the windows of frames k, k+1, k+2 ... one after the other."""
+
+    def step(self, window: Window) -> SceneFlow:
+        """Estimate the flow of the next window, whose last frame follows the one before."""
+        ...
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to estimate scene flow.
+
+    A method either gives `flow`, a pure function: the same window and parameters give the same
+    flow, from any thread; or it makes a `tracker`, which is run over fixed segments of a
+    recording, each begun `warm_up` steps early, so that a frame's flow does not depend on who
+    asked for which frame first.
+
+    Attributes:
+        name: unique; `Parameters.method` and `--method` say it.
+        flow: estimates a window's flow.
+        tracker: makes a tracker with fresh memory.
+        title: how tables and figures call it, its name where empty.
+        parameters: its own parameters' class, declared with `parameter`, None where it has none.
+            `Parameters.of` gives an object of it.
+        uses: fields of `Parameters` that change its results.
+        warm_up: steps after which a tracker's flow counts.
+        needs_rays: whether it works only on frames of sensors, and not on plain points.
+    """
+
+    name: str
+    flow: Callable[[Window, Parameters], SceneFlow] | None = None
+    tracker: Callable[[Parameters], Tracker] | None = None
+    title: str = ""
+    parameters: type[CheckedParameters] | None = None
+    uses: tuple[str, ...] = SHARED
+    warm_up: int = 0
+    needs_rays: bool = field(default=False)
+
+    @property
+    def label(self) -> str:
+        """How tables and figures call it."""
+        return self.title or self.name
+
+    def infos(self) -> dict[str, ParameterInfo]:
+        """{name: description} of all parameters that change its results.
+
+        Its own are called by method and name, such as `rays.sigma`.
+        """
+        shared = {name: PARAMETER_INFO[name] for name in PARAMETER_INFO if name in self.uses}
+        own = infos_of(self.parameters) if self.parameters else {}
+        return shared | {f"{self.name}.{name}": info for name, info in own.items()}
+
+
+_METHODS: dict[str, Method] = {}
+
+
+def register(method: Method) -> None:
+    """Make a method known by its name, to everything that takes one.
+
+    Raises:
+        MethodError: the name is taken or no plain word, or it is neither a function nor a tracker.
+    """
+    name = method.name
+    if name in _METHODS and _METHODS[name] != method:
+        raise MethodError(f"There is a method {name} already; give this one another name.")
+    if (method.flow is None) == (method.tracker is None):
+        raise MethodError(f"Method {name} must have either a flow or a tracker.")
+    if not name.replace("_", "").replace("-", "").isalnum() or name in PARAMETER_INFO:
+        raise MethodError(
+            f"A method's name is made of letters, digits, dashes and underscores, and is none of "
+            f"{', '.join(PARAMETER_INFO)}; got {name!r}."
+        )
+    if unknown := [used for used in method.uses if used not in PARAMETER_INFO]:
+        raise MethodError(f"Method {name} uses {unknown[0]}, which is no field of Parameters.")
+    _METHODS[name] = method
+    add_method_name(name)
+
+
+def find_method(name: str) -> Method:
+    """The method registered under `name`; KeyError where there is none."""
+    return _METHODS[name]
+
+
+def all_methods() -> tuple[Method, ...]:
+    """All registered methods, the paper's first."""
+    return tuple(_METHODS.values())
