@@ -1,7 +1,6 @@
 """Writing recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
 import os
-from dataclasses import asdict
 from pathlib import Path
 from types import TracebackType
 
@@ -13,7 +12,7 @@ from recordings.contents import natural_key
 from recordings.errors import RecordingError
 from recordings.frame import Frame, PointTruth, Provenance
 from recordings.object_truth import OBJECT_FRAME
-from recordings.opening import PROVENANCE_RECORD
+from recordings.provenance import PROVENANCE_RECORD, provenance_record
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
 from recordings.transforms import inverse
 from robot_assets import Rig, Robot
@@ -57,7 +56,7 @@ class RecordingWriter:
             raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
         self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="tofscope")
-        self._writer.add_metadata(PROVENANCE_RECORD, _as_text(provenance))
+        self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
 
     def __enter__(self) -> "RecordingWriter":
         return self
@@ -154,10 +153,3 @@ def _topic_part(sensor_name: str) -> str:
 
 def _frame_id(topic_part: str) -> str:
     return "tof_" + topic_part.replace("/", "_") + "_optical_frame"
-
-
-def _as_text(provenance: Provenance) -> dict[str, str]:
-    values = asdict(provenance) | {"imperfections": " ".join(provenance.imperfections)}
-    if not provenance.imperfections:
-        del values["imperfections"]
-    return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}
