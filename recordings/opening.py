@@ -15,6 +15,7 @@ from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
 from recordings.provenance import provenance_of
 from recordings.recording import Parts, Recording
+from recordings.rig_record import rig_of
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
 from recordings.sensors import (
@@ -86,10 +87,11 @@ def _open(
     decoder = Decoder(file)
     topics = topics_of(file, decoder)
     provenance = provenance_of(file)
+    own_rig, about_rig = rig_of(file) if provenance is not None else (None, [])
     if rig is not None and provenance is not None:
         # What we write are depth images as REP 118 has them, however the rig's driver delivers.
         rig = replace(rig, model=rig.model.of_depth_images())
-    found = recorded_sensors(topics, decoder, rig)
+    found = recorded_sensors(topics, decoder, rig, own_rig)
     if not found:
         raise RecordingError(_nothing_to_estimate_from(file, topics))
     if rig is not None:
@@ -99,7 +101,7 @@ def _open(
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, decoder, table.stamps)
-    warnings += unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
+    warnings += about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
 
     names = joint_names(topics, file, decoder)
     if robot is None:
@@ -146,6 +148,7 @@ def _open(
             fixed_frame=fixed,
             truth_frame=truth_frame,
             provenance=provenance,
+            rig=own_rig,
             warnings=tuple(warnings),
         )
     )
@@ -249,8 +252,13 @@ def _unplaced_sensors(
     warnings: list[str] = []
     if unplaced:
         warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
-    if rig is not None and (strangers := [t.name for t, _, in_rig in found if in_rig is None]):
+    if rig is None:
+        return warnings
+    if strangers := [t.name for t, _, in_rig in found if in_rig is None]:
         warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
+    there = {in_rig.name for _, _, in_rig in found if in_rig is not None}
+    if absent := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
+        warnings.append(f"No topic belongs to {few(absent)} of the rig '{rig.name}'.")
     return warnings
 
 

@@ -7,6 +7,7 @@ from recordings.frame import Provenance
 from recordings.mcap_file import McapFile
 
 PROVENANCE_RECORD = "tofscope"
+_UNSAID = ("imperfections", "rig")
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
@@ -28,6 +29,7 @@ def provenance_of(file: McapFile) -> Provenance | None:
             noise=record["noise"],
             command=record["command"],
             imperfections=tuple(record.get("imperfections", "").split()),
+            rig=record.get("rig", ""),
         )
     except (KeyError, ValueError) as error:
         names = ", ".join(f.name for f in fields(Provenance))
@@ -40,6 +42,6 @@ def provenance_of(file: McapFile) -> Provenance | None:
 def provenance_record(provenance: Provenance) -> dict[str, str]:
     """The metadata record of a file that comes from there."""
     values = asdict(provenance) | {"imperfections": " ".join(provenance.imperfections)}
-    if not provenance.imperfections:
-        del values["imperfections"]
+    # What an older file does not say stays unsaid, so that nothing in it changes.
+    values = {name: v for name, v in values.items() if v != "" or name not in _UNSAID}
     return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}

@@ -21,7 +21,7 @@ from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
 from recordings.sensors import DepthStream, RecordedSensor, readings, status_codes
 from recordings.truth import ObjectTruth, PairTruth, RigidTruth
-from robot_assets import Robot, SelfFilter, Transform
+from robot_assets import Rig, Robot, SelfFilter, Transform
 
 _CACHED_FRAMES, _LEAST_CACHED = 512, 16
 _CACHED_ZONES = 2**20  # of all frames that are kept, each some 50 bytes
@@ -43,6 +43,7 @@ class Parts:
     fixed_frame: str
     truth_frame: str | None
     provenance: Provenance | None
+    rig: Rig | None
     warnings: tuple[str, ...]
 
 
@@ -60,6 +61,7 @@ class Recording:
         truth_frame: whose rigid motion is the truth, None where it is not a frame's.
         robot: None where there is none.
         provenance: where it comes from, None for files that we did not write.
+        rig: with which it was simulated, None where the file does not hold it.
         duplicates: frames dropped because a later one has the same stamp.
     """
 
@@ -74,6 +76,7 @@ class Recording:
         self.truth_frame = parts.truth_frame
         self.robot: Robot | None = parts.robot.robot if parts.robot else None
         self.provenance = parts.provenance
+        self.rig: Rig | None = parts.rig
         self.duplicates = parts.frames.duplicates
         self._said: dict[str, None] = dict.fromkeys(parts.warnings)
         self._grid = common_grid([sensor.grid for sensor in self.sensors])

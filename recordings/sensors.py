@@ -1,7 +1,7 @@
 """The sensors of a recording: their intrinsics, and their readings in metres."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,8 @@ from recordings.contents import DEPTH_ENCODINGS, Topic, Use, camera_matrix, pare
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.grids import Grid, shown
-from robot_assets import Rig, SensorModel, zone_rays
+from recordings.rig_record import depth_topic, topic_part
+from robot_assets import Rig, SensorModel, plain_name, zone_rays
 from robot_assets import Sensor as RigSensor
 
 # ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); others are no distance,
@@ -49,7 +50,7 @@ class RecordedSensor:
 
 
 def recorded_sensors(
-    topics: list[Topic], decoder: Decoder, rig: Rig | None
+    topics: list[Topic], decoder: Decoder, rig: Rig | None, own: Rig | None = None
 ) -> list[tuple[Topic, RecordedSensor, RigSensor | None]]:
     """Find the sensors of a recording.
 
@@ -60,10 +61,12 @@ def recorded_sensors(
         topics: of the file.
         decoder: of the file.
         rig: one that a person chose, None to use the recording's own intrinsics.
+        own: the rig that the recording was made with, which names its sensors.
 
     Returns:
         For each depth topic its sensor, and the sensor of the rig that it matches by name.
     """
+    named_by = {depth_topic(topic_part(s.name)): s for s in own.sensors} if own else {}
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]] = []
     for topic in [topic for topic in topics if topic.use is Use.DEPTH]:
         in_rig = _sensor_of(rig, topic) if rig else None
@@ -76,6 +79,8 @@ def recorded_sensors(
             rows, columns = _grid(topic)
             model = SensorModel(rows=rows, columns=columns)
             sensor = _by_model(short_name(topic.name), "", topic, model)
+        if not in_rig and (named := named_by.get(topic.name)):
+            sensor = replace(sensor, name=named.name, ring=named.ring)
         found.append((topic, sensor, in_rig))
     return found
 
@@ -195,13 +200,9 @@ def short_name(topic: str) -> str:
 
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
     """The sensor of a rig whose name stands in the topic or in its frame."""
-    texts = [f"_{_plain(text)}_" for text in (parent(topic.name), topic.frame)]
-    fitting = [s for s in rig.sensors if any(f"_{_plain(s.name)}_" in text for text in texts)]
+    texts = [f"_{plain_name(text)}_" for text in (parent(topic.name), topic.frame)]
+    fitting = [s for s in rig.sensors if any(f"_{plain_name(s.name)}_" in text for text in texts)]
     return max(fitting, key=lambda s: len(s.name), default=None)
-
-
-def _plain(text: str) -> str:
-    return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
 
 
 def _by_model(name: str, ring: str, topic: Topic, model: SensorModel) -> RecordedSensor:
