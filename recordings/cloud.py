@@ -1,48 +1,68 @@
 """The cloud of one frame, and where its points came from."""
 
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+_Array = TypeVar("_Array", bound=NDArray[Any])
+
+NO_STATUS = 255
+"""ST's status of a zone without a target; also that of a zone of which no status was recorded."""
+
 
 @dataclass(frozen=True)
 class Cloud:
-    """What the sensors saw at one frame.
+    """What the sensors saw at one frame; its arrays are read-only.
+
+    R and C are the most rows and columns that any sensor of the recording has. A sensor with fewer
+    lies in the first of them; beyond its own grid its directions are NaN. A zone with a direction
+    and without a range looked, and there was no return, or none that is valid.
 
     Attributes:
         points: (N, 3) metres in the fixed frame.
         sensor: (N,) index of the sensor that saw each point.
-        zone: (N,) index of its zone, row * 8 + column.
-        ranges: (S, 8, 8) metres as the sensors report them, NaN where invalid; readings of the
-            robot itself and beyond `max_range` are still in here.
+        zone: (N,) index of its zone, row * C + column.
+        directions: (S, R, C, 3) unit vectors along the zones' rays in each sensor's optical frame,
+            NaN beyond its grid.
+        ranges: (S, R, C) metres along the optical axis, NaN where there is no return; readings of
+            the robot itself and beyond `max_range` are still in here.
         T_fixed_sensor: (S, 4, 4), NaN where unknown.
         stamp: seconds.
+        status: (S, R, C) ST's target status as recorded, 255 where a sensor has none at this frame
+            and beyond its grid; None where no sensor has any.
     """
 
     points: NDArray[np.float64]
     sensor: NDArray[np.int64]
     zone: NDArray[np.int64]
+    directions: NDArray[np.float64]
     ranges: NDArray[np.float64]
     T_fixed_sensor: NDArray[np.float64]
     stamp: float
+    status: NDArray[np.uint8] | None = None
 
 
 @dataclass(frozen=True)
 class Reading:
-    """All readings of one frame before a maximum range is applied.
+    """All readings of one frame before a maximum range is applied; its arrays are read-only.
 
     Attributes:
         stamp: seconds.
-        ranges: (S, 8, 8) metres, NaN where invalid.
-        T_fixed_sensor: (S, 4, 4), NaN where unknown.
-        points: (S, 8, 8, 3) metres in the fixed frame, NaN where invalid or unknown.
-        distance: (S, 8, 8) metres along the zone's ray.
-        visible: (S, 8, 8) whether a reading is valid, placed, and not the robot itself.
+        directions: as of a cloud, likewise `ranges`, `status` and `T_fixed_sensor`.
+        ranges: (S, R, C) metres.
+        status: (S, R, C), or None.
+        T_fixed_sensor: (S, 4, 4).
+        points: (S, R, C, 3) metres in the fixed frame, NaN where invalid or unknown.
+        distance: (S, R, C) metres along the zone's ray.
+        visible: (S, R, C) whether a reading is valid, placed, and not the robot itself.
     """
 
     stamp: float
+    directions: NDArray[np.float64]
     ranges: NDArray[np.float64]
+    status: NDArray[np.uint8] | None
     T_fixed_sensor: NDArray[np.float64]
     points: NDArray[np.float64]
     distance: NDArray[np.float64]
@@ -53,10 +73,18 @@ class Reading:
         kept = self.visible & (self.distance <= max_range)
         sensor, row, column = np.nonzero(kept)
         return Cloud(
-            points=self.points[kept],
-            sensor=sensor,
-            zone=row * self.ranges.shape[2] + column,
+            points=read_only(self.points[kept]),
+            sensor=read_only(sensor),
+            zone=read_only(row * self.ranges.shape[2] + column),
+            directions=self.directions,
             ranges=self.ranges,
             T_fixed_sensor=self.T_fixed_sensor,
             stamp=self.stamp,
+            status=self.status,
         )
+
+
+def read_only(values: _Array) -> _Array:
+    """The same array, which can no longer be written to: clouds are shared between threads."""
+    values.setflags(write=False)
+    return values

@@ -9,10 +9,10 @@ import numpy as np
 
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError
+from recordings.grids import SIZES, Grid, is_grid, shown
 from recordings.mcap_contents import ChannelInfo
 from recordings.mcap_file import McapFile
 
-ZONES = (8, 8)
 DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _STATUS_ENCODINGS = ("8UC1", "mono8")
 _TRUTH_NAMES = ("target", "truth")
@@ -34,6 +34,9 @@ class Use(StrEnum):
     NOTHING = "not used"
 
 
+_WITH_GRID = (Use.DEPTH, Use.STATUS, Use.CAMERA_INFO)
+
+
 @dataclass(frozen=True)
 class Topic:
     """A channel and its use.
@@ -44,6 +47,7 @@ class Topic:
         why_not: why it is not used, "" where it is.
         frame: frame_id of its first message, "" where its type has no header.
         candidate: whether it could be the truth, and which of several is unclear.
+        grid: size of its first image, or of the images that its intrinsics are for.
     """
 
     channel: ChannelInfo
@@ -51,6 +55,7 @@ class Topic:
     why_not: str = ""
     frame: str = ""
     candidate: bool = False
+    grid: Grid | None = None
 
     @property
     def name(self) -> str:
@@ -64,7 +69,24 @@ def topics_of(file: McapFile, decoder: Decoder) -> list[Topic]:
     topics = [_topic(channel, file, decoder) for channel in channels]
     for use in (Use.VELOCITY, Use.POSE, Use.POINTS):
         topics = _one_truth(topics, use)
-    return topics
+    return _status_beside_ranges(topics)
+
+
+def parent(topic: str) -> str:
+    """The topic one level up: "/tof/base/0" of "/tof/base/0/image"."""
+    return topic.rsplit("/", 1)[0]
+
+
+def _status_beside_ranges(topics: list[Topic]) -> list[Topic]:
+    """Use no image of bytes as a status where there are no ranges that it could be of."""
+    ranges = {(parent(topic.name), topic.grid) for topic in topics if topic.use is Use.DEPTH}
+    why_not = "there are no ranges of its size beside it"
+    return [
+        replace(topic, use=Use.NOTHING, why_not=why_not)
+        if topic.use is Use.STATUS and (parent(topic.name), topic.grid) not in ranges
+        else topic
+        for topic in topics
+    ]
 
 
 def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
@@ -122,15 +144,14 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     use = _BY_TYPE[kind](channel.topic, first)
     frame = first.header.frame_id.lstrip("/") if hasattr(first, "header") else ""
     if isinstance(use, Use):
-        return Topic(channel, use, frame=frame)
+        grid = (first.height, first.width) if use in _WITH_GRID else None
+        return Topic(channel, use, frame=frame, grid=grid)
     return Topic(channel, Use.NOTHING, use, frame)
 
 
 def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded message)
-    if (image.height, image.width) != ZONES:
-        return (
-            f"it is {image.width} x {image.height}, and a sensor has {ZONES[1]} x {ZONES[0]} zones"
-        )
+    if not is_grid(image.height, image.width):
+        return f"it is {shown((image.height, image.width))}, and a sensor has {SIZES}"
     if image.encoding in DEPTH_ENCODINGS:
         return Use.DEPTH
     if image.encoding in _STATUS_ENCODINGS:
@@ -139,8 +160,8 @@ def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded mess
 
 
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
-    if (info.height, info.width) != ZONES:
-        return f"it is for {info.width} x {info.height} and not {ZONES[1]} x {ZONES[0]} zones"
+    if not is_grid(info.height, info.width):
+        return f"it is for {shown((info.height, info.width))}, and a sensor has {SIZES}"
     fx, fy, cx, cy = camera_matrix(info)
     if not all(math.isfinite(f) and f > 0 for f in (fx, fy)):
         return f"its focal lengths are {fx:g} and {fy:g}"

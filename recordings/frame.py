@@ -68,6 +68,8 @@ class Provenance:
         noise: name and one-line description of the noise model.
         command: the command that makes the recording again.
         imperfections: names of what is wrong with the recording besides noise.
+        rig: name of the rig that saw it, "" where an older file does not say; the rig itself is
+            the file's attachment rig.toml.
     """
 
     simulated: bool
@@ -78,3 +80,4 @@ class Provenance:
     noise: str
     command: str
     imperfections: tuple[str, ...] = ()
+    rig: str = ""

@@ -1,27 +1,34 @@
 """Opening a recording: what each topic is, where the sensors are, what the truth is."""
 
-from dataclasses import fields
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from recordings.contents import ZONES, Topic, Use, natural_key, topics_of
+from recordings.contents import Topic, Use, natural_key, topics_of
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError, few
-from recordings.frame import Provenance
 from recordings.frame_table import FrameTable, frame_table
+from recordings.grids import SIZES
 from recordings.joints import joint_names, joint_positions, matched, unknown_joints
 from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
+from recordings.provenance import provenance_of
 from recordings.recording import Parts, Recording
+from recordings.rig_record import rig_of
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
-from recordings.sensors import RecordedSensor, depth_stream, recorded_sensors
+from recordings.sensors import (
+    RecordedSensor,
+    depth_stream,
+    recorded_sensors,
+    rig_sensors,
+    unfit_intrinsics,
+)
 from recordings.stamp_index import STAMP_INDEX
 from recordings.transforms import TransformTree, read_transforms
 from robot_assets import Rig, Robot, RobotError, Sensor, load_rig, load_robot
 
-PROVENANCE_RECORD = "tofscope"
 _COMPLETE = 0.9  # share of the sensors in a frame, below which something is wrong
 
 
@@ -79,17 +86,22 @@ def _open(
 ) -> Recording:
     decoder = Decoder(file)
     topics = topics_of(file, decoder)
-    if rig is not None:
-        _check_rig(file, rig)
-    found = recorded_sensors(topics, decoder, rig)
+    provenance = provenance_of(file)
+    own_rig, about_rig = rig_of(file) if provenance is not None else (None, [])
+    if rig is not None and provenance is not None:
+        # What we write are depth images as REP 118 has them, however the rig's driver delivers.
+        rig = replace(rig, model=rig.model.of_depth_images())
+    found = recorded_sensors(topics, decoder, rig, own_rig)
     if not found:
         raise RecordingError(_nothing_to_estimate_from(file, topics))
+    if rig is not None:
+        _check_rig(file, rig, found)
     if STAMP_INDEX not in file.attachments:
         decoder.read_stamps(t.channel for t in topics if t.use in (Use.DEPTH, Use.STATUS))
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, decoder, table.stamps)
-    warnings += _about_file(file, table, len(found))
+    warnings += about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
 
     names = joint_names(topics, file, decoder)
     if robot is None:
@@ -103,10 +115,9 @@ def _open(
         )
     if rig is not None and robot is not None:
         rig.check_links(robot.links, robot.name)
-    rig_sensors: list[Sensor | None] = [in_rig for _, _, in_rig in found]
+    by_rig: list[Sensor | None] = [in_rig for _, _, in_rig in found]
     if rig is None and robot is not None and set(load_robot().links) <= set(robot.links):
-        default = recorded_sensors(topics, decoder, load_rig())
-        rig_sensors = [in_rig for _, _, in_rig in default]
+        by_rig = rig_sensors(topics, load_rig())
 
     frames = [topic.frame for topic, _, _ in found]
     fixed = _fixed_frame(fixed_frame, file, tree, frames, robot)
@@ -117,8 +128,8 @@ def _open(
         warnings += said + doubled + _limits(robot, positions)
         warnings += unknown_joints(robot, positions, tree.frames)
         robot_poses = RobotPoses(robot, positions, tree, fixed)
-    poses = SensorPoses(frames, tree, fixed, rig_sensors, robot_poses, len(table.stamps))
-    warnings += _unplaced_sensors(file, found, tree, fixed, rig_sensors, robot, rig)
+    poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
+    warnings += _unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
 
     truth, said = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
     warnings += said
@@ -136,7 +147,8 @@ def _open(
             point_truths=points,
             fixed_frame=fixed,
             truth_frame=truth_frame,
-            provenance=provenance_of(file),
+            provenance=provenance,
+            rig=own_rig,
             warnings=tuple(warnings),
         )
     )
@@ -157,35 +169,13 @@ def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
     return warnings
 
 
-def provenance_of(file: McapFile) -> Provenance | None:
-    """Where a file comes from, by its metadata; None for files that we did not write."""
-    record = file.metadata.get(PROVENANCE_RECORD)
-    if record is None:
-        return None
-    try:
-        return Provenance(
-            simulated=record["simulated"] == "true",
-            scenario=record["scenario"],
-            speed=float(record["speed"]),
-            trial=int(record["trial"]),
-            seed=int(record["seed"]),
-            noise=record["noise"],
-            command=record["command"],
-            imperfections=tuple(record.get("imperfections", "").split()),
-        )
-    except (KeyError, ValueError) as error:
-        names = ", ".join(f.name for f in fields(Provenance))
-        raise RecordingError(
-            f"{file.path}: its metadata record '{PROVENANCE_RECORD}' must hold {names}; "
-            f"wrong or missing: {error}."
-        ) from error
-
-
 def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
     shown = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
     more = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
     held = f"it holds {', '.join(shown)}{more}" if topics else "it holds no topics"
-    return f"{file.path} has no 8 x 8 depth images, so there is nothing to estimate from; {held}."
+    return (
+        f"{file.path} has no depth images of {SIZES}, so there is nothing to estimate from; {held}."
+    )
 
 
 def _robot(
@@ -242,14 +232,14 @@ def _unplaced_sensors(
     found: list[tuple[Topic, RecordedSensor, Sensor | None]],
     tree: TransformTree,
     fixed: str,
-    rig_sensors: list[Sensor | None],
+    by_rig: list[Sensor | None],
     robot: Robot | None,
     rig: Rig | None,
 ) -> list[str]:
     """Sentences about sensors that nothing places; refuse a recording where that is all."""
     unplaced = [
         topic.frame or topic.name
-        for (topic, _, _), sensor in zip(found, rig_sensors, strict=True)
+        for (topic, _, _), sensor in zip(found, by_rig, strict=True)
         if not tree.connected(fixed, topic.frame)
         and not (sensor and robot and sensor.link in robot.links)
     ]
@@ -262,15 +252,25 @@ def _unplaced_sensors(
     warnings: list[str] = []
     if unplaced:
         warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
-    if rig is not None and (strangers := [t.name for t, _, in_rig in found if in_rig is None]):
+    if rig is None:
+        return warnings
+    if strangers := [t.name for t, _, in_rig in found if in_rig is None]:
         warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
+    there = {in_rig.name for _, _, in_rig in found if in_rig is not None}
+    if absent := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
+        warnings.append(f"No topic belongs to {few(absent)} of the rig '{rig.name}'.")
     return warnings
 
 
-def _check_rig(file: McapFile, rig: Rig) -> None:
-    if (rig.model.rows, rig.model.columns) != ZONES:
-        raise RecordingError(
-            f"{file.path}: the rig '{rig.name}' has sensors of {rig.model.rows} x "
-            f"{rig.model.columns} zones (sensor_model.rows, columns), and recordings "
-            f"{ZONES[0]} x {ZONES[1]}."
-        )
+def _check_rig(
+    file: McapFile, rig: Rig, found: list[tuple[Topic, RecordedSensor, Sensor | None]]
+) -> None:
+    """RecordingError where the images of a rig's sensor are not of the rig's size."""
+    model = rig.model
+    for topic, _, in_rig in found:
+        if in_rig is not None and topic.grid is not None and not model.delivers(*topic.grid):
+            raise RecordingError(
+                f"{file.path}: the rig '{rig.name}' has sensors of {model.rows} x {model.columns} "
+                f"zones (sensor_model.rows, columns), and the images of {topic.name} have "
+                f"{topic.grid[0]} x {topic.grid[1]}."
+            )

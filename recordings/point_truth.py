@@ -198,11 +198,17 @@ def _rows(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
 
 
 def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+    sensors, _, columns = cloud.ranges.shape
     rows = np.full(cloud.ranges.size, -1, dtype=np.int64)
     zones = cloud.ranges[0].size
-    place = table["sensor"] * zones + table["zone"]
-    inside = (place >= 0) & (place < rows.size)
-    rows[place[inside]] = np.flatnonzero(inside)
+    sensor, zone = table["sensor"], table["zone"]
+    inside = np.flatnonzero((sensor >= 0) & (sensor < sensors) & (zone >= 0) & (zone < zones))
+    # The file counts the zones of a sensor's own grid, a cloud those of the largest.
+    own = np.isfinite(cloud.directions[:, 0, :, 0]).sum(axis=-1)[sensor[inside]]
+    row, column = np.divmod(zone[inside], np.maximum(own, 1))
+    place = sensor[inside] * zones + row * columns + column
+    known = row < cloud.ranges.shape[1]
+    rows[place[known]] = inside[known]
     return rows[cloud.sensor * zones + cloud.zone]
 
 

@@ -9,21 +9,22 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.cloud import Cloud, Reading
-from recordings.contents import ZONES
+from recordings.cloud import NO_STATUS, Cloud, Reading, read_only
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.frame import Provenance
 from recordings.frame_table import FrameTable
+from recordings.grids import common_grid, padded
 from recordings.mcap_file import McapFile
 from recordings.point_truth import PointTruths
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
-from recordings.sensors import DepthStream, RecordedSensor, readings
+from recordings.sensors import DepthStream, RecordedSensor, readings, status_codes
 from recordings.truth import ObjectTruth, PairTruth, RigidTruth
-from robot_assets import Robot, SelfFilter, Transform
+from robot_assets import Rig, Robot, SelfFilter, Transform
 
-_CACHED_FRAMES = 512
+_CACHED_FRAMES, _LEAST_CACHED = 512, 16
+_CACHED_ZONES = 2**20  # of all frames that are kept, each some 50 bytes
 DEFAULT_MAX_RANGE = 4.0
 
 
@@ -42,6 +43,7 @@ class Parts:
     fixed_frame: str
     truth_frame: str | None
     provenance: Provenance | None
+    rig: Rig | None
     warnings: tuple[str, ...]
 
 
@@ -59,13 +61,13 @@ class Recording:
         truth_frame: whose rigid motion is the truth, None where it is not a frame's.
         robot: None where there is none.
         provenance: where it comes from, None for files that we did not write.
+        rig: with which it was simulated, None where the file does not hold it.
         duplicates: frames dropped because a later one has the same stamp.
     """
 
     def __init__(self, parts: Parts) -> None:
         self._parts = parts
         self._self_filter = SelfFilter(parts.robot.robot) if parts.robot else None
-        self._reading = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
         self.path: Path = parts.file.path
         self.name = parts.file.path.stem
         self.stamps = parts.frames.stamps.astype(np.float64) * 1e-9
@@ -74,9 +76,18 @@ class Recording:
         self.truth_frame = parts.truth_frame
         self.robot: Robot | None = parts.robot.robot if parts.robot else None
         self.provenance = parts.provenance
+        self.rig: Rig | None = parts.rig
         self.duplicates = parts.frames.duplicates
         self._said: dict[str, None] = dict.fromkeys(parts.warnings)
-        self._directions = np.stack([sensor.directions for sensor in self.sensors])
+        self._grid = common_grid([sensor.grid for sensor in self.sensors])
+        # A reading times its ray is the point in the optical frame.
+        self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
+        with np.errstate(over="ignore", invalid="ignore"):  # intrinsics may be any numbers
+            lengths = np.linalg.norm(self._rays, axis=-1, keepdims=True)
+            self._directions = read_only(self._rays / lengths)
+        kept = _CACHED_ZONES // self._rays[..., 0].size
+        kept = min(max(kept, _LEAST_CACHED), _CACHED_FRAMES)
+        self._reading = lru_cache(maxsize=kept)(self._read)
 
     @property
     def simulated(self) -> bool:
@@ -175,11 +186,12 @@ class Recording:
         velocity = truth.over(source_k, self._checked(target_k), cloud.points) if truth else None
         if velocity is None:
             return None
+        velocity = read_only(velocity)
         if self._everything_moves:
             return PairTruth(velocity, velocity)
         own = self._parts.point_truths
         points = own.over(source_k, target_k, cloud) if own else None
-        return PairTruth(velocity, points)
+        return PairTruth(velocity, None if points is None else read_only(points))
 
     @property
     def _everything_moves(self) -> bool:
@@ -195,39 +207,50 @@ class Recording:
 
     def _read(self, k: int) -> Reading:
         parts = self._parts
-        ranges = np.full((len(parts.streams), *ZONES), np.nan)
+        values = np.full(self._rays.shape[:3], np.nan)
+        status = np.full(values.shape, NO_STATUS, dtype=np.uint8)
+        has_status = False
         for s, stream in enumerate(parts.streams):
-            if (index := int(parts.frames.message[k, s])) >= 0:
-                ranges[s] = self._ranges(stream, index)
+            if (index := int(parts.frames.message[k, s])) < 0:
+                continue
+            told, codes = self._told(stream, index)
+            values[s] = padded(told, self._grid, np.nan)
+            if codes is not None:
+                status[s] = padded(codes, self._grid, NO_STATUS)
+                has_status = True
         T_fixed_sensor = parts.sensor_poses.at(k)
-        in_sensor = ranges[..., None] * self._directions
+        in_sensor = values[..., None] * self._rays
         R, t = T_fixed_sensor[:, :3, :3], T_fixed_sensor[:, :3, 3]
         points = np.einsum("sij,srcj->srci", R, in_sensor) + t[:, None, None, :]
         visible = np.isfinite(points).all(axis=-1)
         link_poses = parts.robot.link_poses(k) if parts.robot else {}
         if self._self_filter and link_poses:
-            shown = np.where(visible, ranges, np.nan)
-            visible &= ~self._self_filter.shows_robot(
-                shown, self._directions, T_fixed_sensor, link_poses
-            )
+            shown = np.where(visible, values, np.nan)
+            visible &= ~self._self_filter.shows_robot(shown, self._rays, T_fixed_sensor, link_poses)
         return Reading(
             stamp=float(self.stamps[k]),
-            ranges=ranges,
-            T_fixed_sensor=T_fixed_sensor,
-            points=points,
-            distance=np.linalg.norm(in_sensor, axis=-1),
-            visible=visible,
+            directions=self._directions,
+            ranges=read_only(np.ascontiguousarray(in_sensor[..., 2])),
+            status=read_only(status) if has_status else None,
+            T_fixed_sensor=read_only(T_fixed_sensor),
+            points=read_only(points),
+            distance=read_only(np.linalg.norm(in_sensor, axis=-1)),
+            visible=read_only(visible),
         )
 
-    def _ranges(self, stream: DepthStream, index: int) -> NDArray[np.float64]:
+    def _told(
+        self, stream: DepthStream, index: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.uint8] | None]:
+        """A sensor's readings in metres, and their status where there is one."""
         decoder = self._parts.decoder
         image = decoder.decode(stream.topic.channel, index)
         status = None
         if stream.status and (row := stream.status_index[index]) >= 0:
             status = decoder.decode(stream.status.channel, int(row))
         try:
-            return readings(image, status, stream.sensor)
+            codes = status_codes(status, stream.sensor) if status is not None else None
+            return readings(image, status, stream.sensor), codes
         except RecordingError as error:
             # One bad image does not cost the frame; the sensor shows nothing there.
             self._said[f"{stream.topic.name}: {error} Such images are left out."] = None
-            return np.full(ZONES, np.nan)
+            return np.full(stream.sensor.grid, np.nan), None

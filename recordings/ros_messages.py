@@ -19,9 +19,8 @@ _POINT_FIELDS = (
     ("vy", "f4"),
     ("vz", "f4"),
     ("object", "u1"),
-    ("sensor", "u1"),
-    ("zone", "u2"),
 )
+_BYTE = 256
 _POINT_FIELD_TYPES = {"u1": 2, "u2": 4, "f4": 7}
 
 
@@ -71,7 +70,8 @@ def _image(stamp: int, frame: str, encoding: str, values: NDArray[Any]) -> Any: 
 
 def camera_info(stamp: int, frame: str, model: SensorModel) -> Any:  # noqa: ANN401
     """sensor_msgs/CameraInfo of a sensor model: a pinhole camera whose pixels are zones."""
-    f, cx, cy = model.focal_length, 0.5 * (model.columns - 1), 0.5 * (model.rows - 1)
+    fx, fy = model.focal_length, model.vertical_focal_length
+    cx, cy = 0.5 * (model.columns - 1), 0.5 * (model.rows - 1)
     region = _make(
         "sensor_msgs/msg/RegionOfInterest",
         x_offset=0,
@@ -87,9 +87,9 @@ def camera_info(stamp: int, frame: str, model: SensorModel) -> Any:  # noqa: ANN
         width=model.columns,
         distortion_model="plumb_bob",
         d=np.zeros(0),
-        k=np.array([f, 0, cx, 0, f, cy, 0, 0, 1], dtype=np.float64),
+        k=np.array([fx, 0, cx, 0, fy, cy, 0, 0, 1], dtype=np.float64),
         r=np.eye(3).ravel(),
-        p=np.array([f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0], dtype=np.float64),
+        p=np.array([fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0], dtype=np.float64),
         binning_x=0,
         binning_y=0,
         roi=region,
@@ -149,9 +149,10 @@ def pose(stamp: int, frame: str, T: NDArray[np.float64]) -> Any:  # noqa: ANN401
     return _make("geometry_msgs/msg/PoseStamped", header=header(stamp, frame), pose=placed)
 
 
-def points(stamp: int, frame: str, truth: PointTruth) -> Any:  # noqa: ANN401
-    """sensor_msgs/PointCloud2 of the truth of every reading."""
-    rows = np.zeros(len(truth.points), dtype=[(n, f"<{kind}") for n, kind in _POINT_FIELDS])
+def points(stamp: int, frame: str, truth: PointTruth, sensors: int) -> Any:  # noqa: ANN401
+    """sensor_msgs/PointCloud2 of the truth of every reading of so many sensors."""
+    kinds = (*_POINT_FIELDS, ("sensor", "u1" if sensors <= _BYTE else "u2"), ("zone", "u2"))
+    rows = np.zeros(len(truth.points), dtype=[(n, f"<{kind}") for n, kind in kinds])
     for i, axis in enumerate("xyz"):
         rows[axis] = truth.points[:, i]
         rows[f"v{axis}"] = truth.velocity[:, i]
@@ -164,7 +165,7 @@ def points(stamp: int, frame: str, truth: PointTruth) -> Any:  # noqa: ANN401
             datatype=_POINT_FIELD_TYPES[kind],
             count=1,
         )
-        for name, kind in _POINT_FIELDS
+        for name, kind in kinds
     ]
     return _make(
         "sensor_msgs/msg/PointCloud2",

@@ -1,16 +1,18 @@
 """The sensors of a recording: their intrinsics, and their readings in metres."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.contents import DEPTH_ENCODINGS, ZONES, Topic, Use, camera_matrix
+from recordings.contents import DEPTH_ENCODINGS, Topic, Use, camera_matrix, parent
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
-from robot_assets import Rig, SensorModel, zone_rays
+from recordings.grids import Grid, shown
+from recordings.rig_record import depth_topic, topic_part
+from robot_assets import Rig, SensorModel, plain_name, zone_rays
 from robot_assets import Sensor as RigSensor
 
 # ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); others are no distance,
@@ -26,21 +28,29 @@ class RecordedSensor:
         name: of the rig's sensor, or the part of its topic that tells it apart.
         ring: name of its ring, "" where it has none.
         frame: its optical frame.
-        directions: (8, 8, 3), a reading times its direction is the point in the optical frame.
-        arrange: brings readings (8, 8) into the order of `directions`.
+        directions: (rows, columns, 3), a reading times its direction is the point in the optical
+            frame.
+        arrange: brings readings as the images hold them into the order of `directions`.
         limits: (smallest, largest) reading in metres that counts.
+        images: rows and columns of its images where they are not those of `directions`.
     """
 
     name: str
     ring: str
     frame: str
     directions: NDArray[np.float64]
-    arrange: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    arrange: Callable[[NDArray[Any]], NDArray[Any]]
     limits: tuple[float, float]
+    images: Grid | None = None
+
+    @property
+    def grid(self) -> Grid:
+        """Rows and columns of zones."""
+        return self.directions.shape[0], self.directions.shape[1]
 
 
 def recorded_sensors(
-    topics: list[Topic], decoder: Decoder, rig: Rig | None
+    topics: list[Topic], decoder: Decoder, rig: Rig | None, own: Rig | None = None
 ) -> list[tuple[Topic, RecordedSensor, RigSensor | None]]:
     """Find the sensors of a recording.
 
@@ -51,29 +61,67 @@ def recorded_sensors(
         topics: of the file.
         decoder: of the file.
         rig: one that a person chose, None to use the recording's own intrinsics.
+        own: the rig that the recording was made with, which names its sensors.
 
     Returns:
         For each depth topic its sensor, and the sensor of the rig that it matches by name.
     """
-    infos = [topic for topic in topics if topic.use is Use.CAMERA_INFO]
+    named_by = {depth_topic(topic_part(s.name)): s for s in own.sensors} if own else {}
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]] = []
     for topic in [topic for topic in topics if topic.use is Use.DEPTH]:
         in_rig = _sensor_of(rig, topic) if rig else None
-        info = next((i for i in infos if i.frame == topic.frame), None) or next(
-            (i for i in infos if parent(i.name) == parent(topic.name)), None
-        )
+        info = next((i for i in _infos(topic, topics) if i.grid == topic.grid), None)
         if rig and in_rig:
-            sensor = _by_model(in_rig.name, in_rig.ring, topic.frame, rig.model)
+            sensor = _by_model(in_rig.name, in_rig.ring, topic, rig.model)
         elif info:
             sensor = _by_camera_info(topic, decoder.decode(info.channel, 0))
         else:
-            sensor = _by_model(short_name(topic.name), "", topic.frame, SensorModel())
+            rows, columns = _grid(topic)
+            model = SensorModel(rows=rows, columns=columns)
+            sensor = _by_model(short_name(topic.name), "", topic, model)
+        if not in_rig and (named := named_by.get(topic.name)):
+            sensor = replace(sensor, name=named.name, ring=named.ring)
         found.append((topic, sensor, in_rig))
     return found
 
 
+def rig_sensors(topics: list[Topic], rig: Rig) -> list[RigSensor | None]:
+    """For each depth topic the sensor of a rig that it matches by name."""
+    return [_sensor_of(rig, topic) for topic in topics if topic.use is Use.DEPTH]
+
+
+def unfit_intrinsics(
+    found: list[tuple[Topic, RecordedSensor, RigSensor | None]], topics: list[Topic]
+) -> list[str]:
+    """Sentences about sensors whose CameraInfo is for images of another size, and without a rig."""
+    warnings: list[str] = []
+    for topic in [topic for topic, _, in_rig in found if in_rig is None]:
+        infos = _infos(topic, topics)
+        if infos and all(info.grid != topic.grid for info in infos):
+            warnings.append(
+                f"{infos[0].name} is for images of {shown(_grid(infos[0]))} zones and those of "
+                f"{topic.name} are {shown(_grid(topic))}; a field of view of 45 degrees is taken."
+            )
+    return warnings
+
+
+def _infos(topic: Topic, topics: list[Topic]) -> list[Topic]:
+    """Intrinsics that may be a depth topic's: with its frame first, then beside it in the tree."""
+    infos = [info for info in topics if info.use is Use.CAMERA_INFO]
+    return [
+        *(info for info in infos if info.frame == topic.frame),
+        *(info for info in infos if parent(info.name) == parent(topic.name)),
+    ]
+
+
+def _grid(topic: Topic) -> Grid:
+    if topic.grid is None:
+        raise ValueError(f"{topic.name} holds neither images nor intrinsics.")
+    return topic.grid
+
+
 def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[np.float64]:  # noqa: ANN401
-    """The readings (8, 8) in metres of a depth image, NaN where there is none.
+    """The readings (rows, columns) in metres of a depth image, NaN where there is none.
 
     16 bit images hold millimetres with 0 for invalid, 32 bit ones metres with NaN (REP 118).
     A recording's first image told that it is one of these; a later one may still be another.
@@ -84,12 +132,13 @@ def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[
         sensor: that it is from.
 
     Raises:
-        RecordingError: the image is no depth image, or has fewer bytes than its size says.
+        RecordingError: an image is of another kind or size, or has fewer bytes than that says.
     """
-    if (image.height, image.width) != ZONES or image.encoding not in DEPTH_ENCODINGS:
+    grid = sensor.images or sensor.grid
+    if (image.height, image.width) != grid or image.encoding not in DEPTH_ENCODINGS:
         raise RecordingError(
             f"An image of {image.header.frame_id} is {image.width} x {image.height} in "
-            f"{image.encoding!r}, and not {ZONES[1]} x {ZONES[0]} distances."
+            f"{image.encoding!r}, and not {shown(grid)} distances."
         )
     kind = np.dtype(np.float32 if image.encoding == "32FC1" else np.uint16)
     values = pixels(image, kind).astype(np.float64)
@@ -98,20 +147,39 @@ def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[
     with np.errstate(invalid="ignore"):
         valid = np.isfinite(values) & (values > 0)
     if status is not None:
-        valid &= np.isin(pixels(status, np.dtype(np.uint8)), VALID_STATUS)
+        valid &= np.isin(_status_pixels(status, sensor), VALID_STATUS)
     values = sensor.arrange(np.where(valid, values, np.nan))
     low, high = sensor.limits
     with np.errstate(invalid="ignore"):
         return np.where((values >= low) & (values <= high), values, np.nan)
 
 
+def status_codes(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # noqa: ANN401
+    """ST's target status (rows, columns) of a status image, in the order of the readings.
+
+    Raises:
+        RecordingError: the image is of another size, or has fewer bytes than that says.
+    """
+    return sensor.arrange(_status_pixels(status, sensor))
+
+
+def _status_pixels(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # noqa: ANN401
+    grid = sensor.images or sensor.grid
+    if (status.height, status.width) != grid:
+        raise RecordingError(
+            f"A status image of {status.header.frame_id} is {status.width} x {status.height}, and "
+            f"not {shown(grid)}."
+        )
+    return pixels(status, np.dtype(np.uint8))
+
+
 def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
-    """The pixels (8, 8) of an image as numbers of a kind.
+    """The pixels (height, width) of an image as numbers of a kind.
 
     Raises:
         RecordingError: the image has fewer bytes than its size says.
     """
-    rows, columns = ZONES
+    rows, columns = image.height, image.width
     needed = (rows - 1) * image.step + columns * kind.itemsize
     if image.step < columns * kind.itemsize or len(image.data) < needed:
         raise RecordingError(
@@ -124,11 +192,6 @@ def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
     return np.stack(lines).view(kind.newbyteorder(order)).astype(kind)
 
 
-def parent(topic: str) -> str:
-    """The topic one level up: "/tof/base/0" of "/tof/base/0/image"."""
-    return topic.rsplit("/", 1)[0]
-
-
 def short_name(topic: str) -> str:
     """A sensor's name from its topic: "base/0" of "/tof/base/0/image"."""
     parts = [part for part in parent(topic).split("/") if part]
@@ -137,18 +200,15 @@ def short_name(topic: str) -> str:
 
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
     """The sensor of a rig whose name stands in the topic or in its frame."""
-    texts = [f"_{_plain(text)}_" for text in (parent(topic.name), topic.frame)]
-    fitting = [s for s in rig.sensors if any(f"_{_plain(s.name)}_" in text for text in texts)]
+    texts = [f"_{plain_name(text)}_" for text in (parent(topic.name), topic.frame)]
+    fitting = [s for s in rig.sensors if any(f"_{plain_name(s.name)}_" in text for text in texts)]
     return max(fitting, key=lambda s: len(s.name), default=None)
 
 
-def _plain(text: str) -> str:
-    return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
-
-
-def _by_model(name: str, ring: str, frame: str, model: SensorModel) -> RecordedSensor:
+def _by_model(name: str, ring: str, topic: Topic, model: SensorModel) -> RecordedSensor:
+    limits = (model.min_range, model.max_range)
     return RecordedSensor(
-        name, ring, frame, model.directions, model.arrange, (model.min_range, model.max_range)
+        name, ring, topic.frame, model.directions, model.arrange, limits, images=topic.grid
     )
 
 
@@ -156,7 +216,7 @@ def _by_camera_info(topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401
     # REP 118: a depth image holds distances along the optical axis, in the order of the optical
     # frame, so the camera matrix is all that is needed.
     fx, fy, cx, cy = camera_matrix(info)
-    rows, columns = ZONES
+    rows, columns = _grid(topic)
     return RecordedSensor(
         name=short_name(topic.name),
         ring=_ring(topic.name),
@@ -194,9 +254,8 @@ def depth_stream(
     topic: Topic, sensor: RecordedSensor, topics: list[Topic], decoder: Decoder
 ) -> DepthStream:
     """Join a sensor's depth images with the status of the same readings, by their stamps."""
-    status = next(
-        (t for t in topics if t.use is Use.STATUS and parent(t.name) == parent(topic.name)), None
-    )
+    beside = [t for t in topics if t.use is Use.STATUS and parent(t.name) == parent(topic.name)]
+    status = next((t for t in beside if t.grid == topic.grid), None)
     stamps = decoder.header_stamps(topic.channel)
     index = np.full(len(stamps), -1, dtype=np.int64)
     if status is not None:

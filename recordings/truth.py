@@ -12,7 +12,7 @@ from recordings.transforms import inverse
 
 @dataclass(frozen=True)
 class PairTruth:
-    """The truth over a pair, as the mean over its interval.
+    """The truth over a pair, as the mean over its interval; a recording's arrays are read-only.
 
     Attributes:
         velocity: (N, 3) m/s of the moving object, as if each source point belonged to it: where it

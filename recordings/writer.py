@@ -1,7 +1,6 @@
 """Writing recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
 import os
-from dataclasses import asdict
 from pathlib import Path
 from types import TracebackType
 
@@ -13,7 +12,8 @@ from recordings.contents import natural_key
 from recordings.errors import RecordingError
 from recordings.frame import Frame, PointTruth, Provenance
 from recordings.object_truth import OBJECT_FRAME
-from recordings.opening import PROVENANCE_RECORD
+from recordings.provenance import PROVENANCE_RECORD, provenance_record
+from recordings.rig_record import RIG_ATTACHMENT, RIG_TYPE, depth_topic, packed, topic_part
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
 from recordings.transforms import inverse
 from robot_assets import Rig, Robot
@@ -26,7 +26,7 @@ _STREAMED = "- durability: volatile\n  reliability: reliable\n  history: keep_la
 
 
 class RecordingWriter:
-    """Writes frames into an MCAP file; use it in a `with` statement.
+    """Writes frames into an MCAP file, with the rig beside them; use it in a `with` statement.
 
     The file appears under its name when it is complete; where writing fails nothing is left.
 
@@ -45,7 +45,7 @@ class RecordingWriter:
         self._part = path.with_name(path.name + ".part")
         self._robot = robot
         self._rig = rig
-        self._names = [_topic_part(sensor.name) for sensor in rig.sensors]
+        self._names = [topic_part(sensor.name) for sensor in rig.sensors]
         order = sorted(range(len(self._names)), key=lambda i: natural_key(self._names[i]))
         self._index_in_file = np.argsort(order)
         self._channels: dict[str, int] = {}
@@ -57,7 +57,8 @@ class RecordingWriter:
             raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
         self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="tofscope")
-        self._writer.add_metadata(PROVENANCE_RECORD, _as_text(provenance))
+        self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
+        self._writer.add_attachment(0, 0, RIG_ATTACHMENT, RIG_TYPE, packed(rig))
 
     def __enter__(self) -> "RecordingWriter":
         return self
@@ -85,9 +86,11 @@ class RecordingWriter:
             self._write_constants(stamp)
         self._add("/joint_states", ros.joint_state(stamp, base, frame.joint_positions), stamp)
         self._add("/tf", ros.transforms(stamp, self._moving_poses(frame)), stamp)
+        # A depth image holds distances along the optical axis, whatever the sensor reports.
+        ranges = frame.ranges * self._rig.model.directions[..., 2]
         for i, name in enumerate(self._names):
-            image = ros.depth_image(stamp, _frame_id(name), frame.ranges[i])
-            self._add(f"/tof/{name}/image", image, stamp)
+            image = ros.depth_image(stamp, _frame_id(name), ranges[i])
+            self._add(depth_topic(name), image, stamp)
             if frame.status is not None:
                 status = ros.status_image(stamp, _frame_id(name), frame.status[i])
                 self._add(f"/tof/{name}/status", status, stamp)
@@ -101,7 +104,7 @@ class RecordingWriter:
             sensor=self._index_in_file[frame.truth.sensor],
             zone=frame.truth.zone,
         )
-        self._add("/truth/points", ros.points(stamp, base, truth), stamp)
+        self._add("/truth/points", ros.points(stamp, base, truth, len(self._names)), stamp)
 
     def _write_constants(self, stamp: int) -> None:
         robot = self._robot
@@ -148,16 +151,5 @@ class RecordingWriter:
         self._stamps.setdefault(topic, []).append(stamp)
 
 
-def _topic_part(sensor_name: str) -> str:
-    return sensor_name.strip("/").replace(" ", "_")
-
-
 def _frame_id(topic_part: str) -> str:
     return "tof_" + topic_part.replace("/", "_") + "_optical_frame"
-
-
-def _as_text(provenance: Provenance) -> dict[str, str]:
-    values = asdict(provenance) | {"imperfections": " ".join(provenance.imperfections)}
-    if not provenance.imperfections:
-        del values["imperfections"]
-    return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}

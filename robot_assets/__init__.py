@@ -2,7 +2,8 @@
 
 from robot_assets.errors import RobotError
 from robot_assets.raycast import RayCaster
-from robot_assets.rig import Rig, RigError, Sensor, load_rig
+from robot_assets.rig import Rig, RigError, Sensor, load_rig, parse_rig, plain_name
+from robot_assets.rig_text import rig_text
 from robot_assets.robot import JointMatch, Robot, Transform, load_robot
 from robot_assets.self_filter import SelfFilter
 from robot_assets.sensor_model import SensorModel, zone_rays
@@ -20,5 +21,8 @@ __all__ = [
     "Transform",
     "load_rig",
     "load_robot",
+    "parse_rig",
+    "plain_name",
+    "rig_text",
     "zone_rays",
 ]

@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -11,6 +12,8 @@ from numpy.typing import NDArray
 
 from robot_assets.sensor_model import SensorModel, unit
 from robot_assets.table import Table, TableError
+
+_MOST_SENSORS = 1000
 
 
 class RigError(Exception):
@@ -66,13 +69,24 @@ def load_rig(path: str | Path | None = None) -> Rig:
     """
     where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
     try:
-        content = tomllib.loads(where.read_text(encoding="utf-8"))
+        content = where.read_bytes()
     except OSError as error:
         raise RigError(f"{where} cannot be read as a rig file: {error.strerror}.") from error
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    return parse_rig(content, str(where))
+
+
+def parse_rig(content: bytes, where: str) -> Rig:
+    """Read a rig from the bytes of a TOML file; `where` they are from, for the sentences.
+
+    Raises:
+        RigError: as of `load_rig`.
+    """
+    try:
+        table = tomllib.loads(content.decode("utf-8"))
+    except (ValueError, RecursionError) as error:  # also a number of too many digits
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
-        return _rig(Table(content))
+        return _rig(Table(table))
     except TableError as error:
         raise RigError(f"{where}: {error}") from error
 
@@ -83,24 +97,50 @@ def _rig(table: Table) -> Rig:
     sensors: list[Sensor] = []
     for ring in table.tables("rings"):
         sensors += _ring(ring)
+        if len(sensors) > _MOST_SENSORS:
+            break
     for single in table.tables("sensors"):
         sensors.append(_single(single))
     table.finish()
     if not sensors:
         raise TableError("there must be at least one of [[rings]] and [[sensors]], found none.")
-    names = [sensor.name for sensor in sensors]
-    if doubled := sorted({n for n in names if names.count(n) > 1}):
-        raise TableError(f"two sensors have the name {doubled[0]!r}; names must be unique.")
+    if len(sensors) > _MOST_SENSORS:
+        raise TableError(f"there must be at most {_MOST_SENSORS} sensors, found more.")
+    _check_names([sensor.name for sensor in sensors])
     return Rig(name, model, tuple(sensors))
+
+
+def _check_names(names: Sequence[str]) -> None:
+    """Names are told apart in topics and frames, where only letters and digits are the same."""
+    seen: dict[str, str] = {}
+    for name in names:
+        plain = plain_name(name)
+        if not plain:
+            raise TableError(f"the name {name!r} of a sensor must have a letter or a digit.")
+        if seen.get(plain) == name:
+            raise TableError(f"two sensors have the name {name!r}; names must be unique.")
+        if plain in seen:
+            raise TableError(
+                f"the names {seen[plain]!r} and {name!r} must differ in letters or digits, by "
+                f"which sensors are told apart."
+            )
+        seen[plain] = name
+
+
+def plain_name(text: str) -> str:
+    """A name, topic or frame by which sensors are matched: small letters, digits, underscores."""
+    return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
 
 
 def _sensor_model(table: Table) -> SensorModel:
     min_range = table.number("min_range_m", low=0.0, high=100.0)
+    across, down = table.number_or_two("field_of_view_deg", low=1.0, high=170.0)
     model = SensorModel(
         name=table.text("name"),
         rows=table.integer("rows", low=2, high=64),
         columns=table.integer("columns", low=2, high=64),
-        field_of_view=math.radians(table.number("field_of_view_deg", low=1.0, high=170.0)),
+        field_of_view=math.radians(across),
+        vertical_field_of_view=None if down is None else math.radians(down),
         min_range=min_range,
         max_range=table.number("max_range_m", low=max(min_range, 0.001), high=100.0),
         distance=table.choice("distance", ("perpendicular", "radial")),  # type: ignore[arg-type]
@@ -130,12 +170,12 @@ def _ring(table: Table) -> list[Sensor]:
 
 
 def _single(table: Table) -> Sensor:
-    name, link = table.text("name"), table.text("link")
+    name, link, ring = table.text("name"), table.text("link"), table.text("ring", otherwise="")
     position = table.vector("position_m")
     forward = unit(table.vector("forward", nonzero=True))
     up = table.direction_across("up", forward)
     table.finish()
-    return Sensor(name, "", link, look(position, forward, up))
+    return Sensor(name, ring, link, look(position, forward, up))
 
 
 def look(

@@ -1,8 +1,8 @@
 """A time-of-flight sensor: how its readings become points."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +20,15 @@ class SensorModel:
         name: type of the sensor.
         rows: zones from up to down.
         columns: zones from left to right.
-        field_of_view: angle of one side of the square field of view, rad.
+        field_of_view: angle from the left edge of the field of view to the right one, rad.
         min_range: smallest reading that counts, m.
         max_range: largest reading that counts, m.
         distance: what a reading is: along the optical axis, or along the zone's own ray.
         reading_order: whether readings run along rows or along columns.
         flip_vertical: whether the driver's first row is the lowest.
         flip_horizontal: whether the driver's first column is the rightmost.
+        vertical_field_of_view: angle from its upper edge to the lower one, rad; None where the
+            field of view is square.
     """
 
     name: str = "VL53L5CX"
@@ -39,11 +41,19 @@ class SensorModel:
     reading_order: Literal["row_major", "column_major"] = "row_major"
     flip_vertical: bool = False
     flip_horizontal: bool = False
+    vertical_field_of_view: float | None = None
 
     @property
     def focal_length(self) -> float:
-        """Focal length in zones: the outer edges of the outer zones bound the field of view."""
+        """Focal length along x, in columns: the outer edges of the outer zones bound the view."""
         return 0.5 * self.columns / np.tan(0.5 * self.field_of_view)
+
+    @property
+    def vertical_focal_length(self) -> float:
+        """Focal length along y, in rows, likewise."""
+        across = self.field_of_view
+        down = across if self.vertical_field_of_view is None else self.vertical_field_of_view
+        return 0.5 * self.rows / np.tan(0.5 * down)
 
     @cached_property
     def directions(self) -> NDArray[np.float64]:
@@ -52,21 +62,40 @@ class SensorModel:
             self.rows,
             self.columns,
             self.focal_length,
-            self.focal_length,
+            self.vertical_focal_length,
             0.5 * (self.columns - 1),
             0.5 * (self.rows - 1),
         )
         return rays if self.distance == "perpendicular" else unit(rays)
 
-    def arrange(self, readings: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Bring readings (rows, columns) as the driver delivers them into this model's order."""
+    def delivers(self, rows: int, columns: int) -> bool:
+        """Whether the driver's images may be of this size."""
+        turned = self.reading_order == "column_major" and (columns, rows) == (
+            self.rows,
+            self.columns,
+        )
+        return turned or (rows, columns) == (self.rows, self.columns)
+
+    def arrange(self, readings: NDArray[Any]) -> NDArray[Any]:
+        """Bring readings as the driver delivers them into this model's order (rows, columns)."""
         if self.reading_order == "column_major":
-            readings = readings.T
+            # A driver may call its images rows x columns all the same.
+            readings = readings.reshape(self.columns, self.rows).T
         if self.flip_vertical:
             readings = readings[::-1]
         if self.flip_horizontal:
             readings = readings[:, ::-1]
         return readings
+
+    def of_depth_images(self) -> "SensorModel":
+        """The same sensor where its readings are in order and along the optical axis already."""
+        return replace(
+            self,
+            distance="perpendicular",
+            reading_order="row_major",
+            flip_vertical=False,
+            flip_horizontal=False,
+        )
 
 
 def zone_rays(

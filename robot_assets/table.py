@@ -25,8 +25,11 @@ class Table:
         self._path = path
         self._read: set[str] = set()
 
-    def text(self, key: str) -> str:
-        """A string that is not empty."""
+    def text(self, key: str, otherwise: str | None = None) -> str:
+        """A string that is not empty; `otherwise` where the key is not there."""
+        if otherwise is not None and key not in self._content:
+            self._read.add(key)
+            return otherwise
         value = self._get(key)
         if not isinstance(value, str) or not value:
             raise self._wrong(key, "a text", value)
@@ -59,6 +62,15 @@ class Table:
         if not _is_number(value) or not low <= value <= high:
             raise self._wrong(key, f"a number from {low:g} to {high:g}", value)
         return float(value)
+
+    def number_or_two(self, key: str, low: float, high: float) -> tuple[float, float | None]:
+        """A number within bounds, or two of them; the second is None where there is one."""
+        value = self._get(key)
+        several = value if isinstance(value, list) else [value]
+        inside = all(_is_number(one) and low <= one <= high for one in several)
+        if len(several) not in (1, 2) or not inside:
+            raise self._wrong(key, f"a number from {low:g} to {high:g}, or two of them", value)
+        return float(several[0]), float(several[1]) if len(several) == 2 else None
 
     def vector(self, key: str, nonzero: bool = False) -> NDArray[np.float64]:
         """Three numbers, as (3,)."""

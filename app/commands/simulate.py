@@ -33,7 +33,7 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         "simulate",
         help="make simulated recordings",
         description=(
-            "Simulate the paper's experiments, and more: a Panda with 24 sensors in a lab, and a "
+            "Simulate the paper's experiments, and more: a Panda with sensors in a lab, and a "
             "mannequin carried by a second Panda, or something else that moves, at 15 Hz, with the "
             "truth of every point. The same arguments give the same recording. A simulated "
             "recording that exists under the name is replaced; any other file is left alone."
@@ -97,6 +97,12 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         metavar="NAME",
         help=f"what else is wrong (default nothing); {imperfections}".replace("%", "%%"),
     )
+    parser.add_argument(
+        "--rig",
+        type=Path,
+        metavar="FILE",
+        help="rig file (TOML) of the sensors on the Panda (default: the paper's 24 sensors)",
+    )
     parser.set_defaults(run=run)
 
 
@@ -105,6 +111,8 @@ def run(options: argparse.Namespace) -> int:
     single = options.out.suffix == _ENDING and not options.out.is_dir()
     trials = options.trial or ([_ONE_TRIAL] if single else TRIALS)
     check_simulation(options.speed or [], trials, options.seed)
+    robot, rig = load_robot(), load_rig(options.rig)
+    rig.check_links(robot.links, robot.name)
     wanted = [
         (scenario, speed, trial)
         for scenario in _scenarios(options.scenarios)
@@ -126,7 +134,6 @@ def run(options: argparse.Namespace) -> int:
         _check_replaceable(path)
     if not single:
         _make_folder(options.out)
-    robot, rig = load_robot(), load_rig()
     for (name, speed, trial), path in paths.items():
         count = write_simulation(
             path,

@@ -62,8 +62,9 @@ class ZoneRays:
     """
 
     def __init__(self, rig: Rig) -> None:
-        self._model = rig.model
         rays = _sub_rays(rig.model)
+        # What a depth along the optical axis is along the zone's own ray; 1 where that is not read.
+        self._slant = 1.0 / rig.model.directions[..., 2:]
         self._lengths = np.linalg.norm(rays, axis=-1)
         self._directions = rays / self._lengths[..., None]
 
@@ -102,15 +103,15 @@ class ZoneRays:
         return hits.distance.reshape(shape), hits.piece.reshape(shape)
 
     def _measured(self, distance: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Distances along the rays as the sensor measures them."""
-        return distance / self._lengths if self._model.distance == "perpendicular" else distance
+        """Distances along the rays as the sensor reports them of the zones."""
+        return distance / self._lengths * self._slant
 
 
 def _sub_rays(model: SensorModel) -> NDArray[np.float64]:
     """(rows, columns, n * n, 3) in the optical frame, each with z = 1."""
     n = _SUB_RAYS
-    focal = n * model.focal_length
+    fx, fy = n * model.focal_length, n * model.vertical_focal_length
     rows, columns = n * model.rows, n * model.columns
-    fine = zone_rays(rows, columns, focal, focal, 0.5 * (columns - 1), 0.5 * (rows - 1))
+    fine = zone_rays(rows, columns, fx, fy, 0.5 * (columns - 1), 0.5 * (rows - 1))
     blocks = fine.reshape(model.rows, n, model.columns, n, 3).swapaxes(1, 2)
     return blocks.reshape(model.rows, model.columns, n * n, 3)

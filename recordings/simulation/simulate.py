@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from recordings.frame import Frame, PointTruth, Provenance
+from recordings.rig_record import RIG_ATTACHMENT
 from recordings.simulation.body import SURROUNDINGS, Body
 from recordings.simulation.imperfections import Streams, in_order
 from recordings.simulation.noise import NoiseModel
@@ -15,7 +16,7 @@ from recordings.simulation.scene import Scene
 from recordings.simulation.sensing import Sensing
 from recordings.simulation.sensors import PieceCaster, ZoneRays
 from recordings.writer import RecordingWriter
-from robot_assets import Rig, Robot
+from robot_assets import Rig, Robot, load_rig, rig_text
 
 RATE = 15.0
 """Frames per second (paper, section III-A)."""
@@ -51,12 +52,14 @@ def simulate(
         noise: how readings err.
         imperfections: names of what else is wrong.
         robot: a Panda that wears the sensors.
-        rig: its sensors.
+        rig: its sensors, on any of its links.
 
     Raises:
         ValueError: the speed is not above 0, nothing moves and it is not 0, or there is no such
             imperfection.
+        RigError: a sensor is on a link that the robot has not.
     """
+    rig.check_links(robot.links, robot.name)
     if scenario.still and speed != 0.0:
         raise ValueError(f"In {scenario.name} nothing moves; its speed is 0, got {speed}.")
     key = [seed, trial, round(speed * 1e6), *scenario.name.encode()]
@@ -146,8 +149,10 @@ def write_simulation(
 
     Raises:
         RecordingError: the file cannot be written.
+        RigError: a sensor is on a link that the robot has not.
     """
     imperfections = in_order(imperfections)
+    with_rig = "" if rig_text(rig) == rig_text(load_rig()) else f"--rig {RIG_ATTACHMENT} "
     also = f"--imperfections {' '.join(imperfections)} " if imperfections else ""
     provenance = Provenance(
         simulated=True,
@@ -158,9 +163,10 @@ def write_simulation(
         noise=f"{noise.name}: {noise.text}",
         command=(
             f"tofscope simulate {scenario.name} --speed {speed:g} --trial {trial} --seed {seed} "
-            f"--noise {noise.name} {also}--out {path.name}"
+            f"--noise {noise.name} {also}{with_rig}--out {path.name}"
         ),
         imperfections=imperfections,
+        rig=rig.name,
     )
     count = 0
     with RecordingWriter(path, robot, rig, provenance) as writer:

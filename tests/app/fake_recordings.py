@@ -53,8 +53,16 @@ class FakeRecording:
     def cloud(self, k, max_range=4.0):
         points = np.vstack([self.static, self.moving + SPEED * PERIOD * k])
         index = np.zeros(len(points), dtype=np.int64)
-        ranges = np.full((len(self.sensors), 8, 8), np.nan)
-        return Cloud(points, index, index, ranges, self.T_fixed_sensor(k), float(self.stamps[k]))
+        rays = np.stack([sensor.directions for sensor in self.sensors])
+        return Cloud(
+            points=points,
+            sensor=index,
+            zone=index,
+            directions=rays / np.linalg.norm(rays, axis=-1, keepdims=True),
+            ranges=np.full(rays.shape[:3], np.nan),
+            T_fixed_sensor=self.T_fixed_sensor(k),
+            stamp=float(self.stamps[k]),
+        )
 
     def T_fixed_sensor(self, k):  # noqa: N802
         if self._rig:

@@ -22,7 +22,7 @@ def test_images_are_told_apart_by_size_and_encoding(tmp_path: Path):
         "/a": ("<u2", "16UC1", 8),
         "/b": ("<f4", "32FC1", 8),
         "/c": ("u1", "8UC1", 8),
-        "/d": ("<u2", "16UC1", 16),
+        "/d": ("<u2", "16UC1", 65),
         "/e": ("u1", "bayer_rggb8", 8),
     }
     for topic, (kind, encoding, size) in kinds.items():
@@ -36,8 +36,25 @@ def test_images_are_told_apart_by_size_and_encoding(tmp_path: Path):
         Use.NOTHING,
         Use.NOTHING,
     ]
-    assert found["/d"].why_not == "it is 16 x 16, and a sensor has 8 x 8 zones"
+    assert found["/d"].why_not == "it is 65 x 65, and a sensor has 2 x 2 to 64 x 64 zones"
     assert "bayer_rggb8" in found["/e"].why_not
+
+
+def test_bytes_are_a_status_only_beside_ranges_of_their_size(tmp_path: Path):
+    file = ForeignFile()
+    for topic, kind, encoding, size in [
+        ("/x/depth", "<u2", "16UC1", 4),
+        ("/x/status", "u1", "8UC1", 4),
+        ("/x/picture", "u1", "mono8", 32),
+        ("/y/status", "u1", "8UC1", 4),
+    ]:
+        message = image(0, "eye", np.zeros((size, size), kind), encoding)
+        file.add(topic, "sensor_msgs/msg/Image", message, 0)
+    found = uses(file, tmp_path / "images.mcap")
+    assert found["/x/status"].use is Use.STATUS
+    for topic in ("/x/picture", "/y/status"):
+        assert found[topic].use is Use.NOTHING
+        assert found[topic].why_not == "there are no ranges of its size beside it"
 
 
 def test_intrinsics_that_are_none_are_not_used(tmp_path: Path):

@@ -52,6 +52,19 @@ def test_a_rig_that_fits_in_part_is_said(tmp_path: Path):
         assert "Nothing places strange in panda_link0" in said
 
 
+def test_sensors_of_a_rig_that_no_topic_belongs_to_are_named(tmp_path: Path):
+    rig = load_rig()
+    few = replace(rig, sensors=rig.sensors[:3])
+    path = sensors(["base_0", "base_2"], [], joints=True).write(tmp_path / "x.mcap")
+    with open_recording(path, rig=few) as recording:
+        assert f"No topic belongs to base/1 of the rig '{rig.name}'." in recording.warnings
+    with open_recording(path, rig=rig) as recording:
+        said = next(w for w in recording.warnings if w.startswith("No topic belongs to base/1,"))
+        assert said.endswith(f" and 14 more of the rig '{rig.name}'.")
+    with open_recording(path) as recording:
+        assert not any("No topic belongs" in warning for warning in recording.warnings)
+
+
 def test_a_rig_for_another_robot_is_refused(tmp_path: Path):
     path = sensors(["base_0"], [], joints=True).write(tmp_path / "x.mcap")
     rig = load_rig()

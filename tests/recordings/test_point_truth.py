@@ -1,3 +1,4 @@
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -61,6 +62,7 @@ def cloud_of(points: np.ndarray, sensor: list[int], zone: list[int]) -> Cloud:
         points=points,
         sensor=np.array(sensor),
         zone=np.array(zone),
+        directions=np.full((2, 8, 8, 3), 1.0),
         ranges=np.full((2, 8, 8), np.nan),
         T_fixed_sensor=np.stack([np.eye(4)] * 2),
         stamp=0.0,
@@ -78,6 +80,17 @@ POINTS = np.array([[0.0, 0, 1], [1.0, 0, 1], [5.0, 5, 5]])
 def test_rows_are_found_by_sensor_and_zone():
     table = table_of(POINTS + 0.05, sensor=[1, 0, 0], zone=[3, 2, 9])
     assert _rows(table, cloud_of(POINTS, [1, 0, 1], [3, 2, 7])).tolist() == [0, 1, -1]
+
+
+def test_zones_are_counted_in_the_sensors_own_grid():
+    cloud = cloud_of(POINTS, [1, 0, 1], [8, 17, 9])
+    directions = cloud.directions.copy()
+    directions[1, 4:], directions[1, :, 4:] = np.nan, np.nan
+    # The second sensor has 4 x 4 zones: its zone 4 is the first of its second row, 8 in the cloud.
+    table = table_of(POINTS, sensor=[1, 0, 1], zone=[4, 17, 5])
+    assert _rows(table, replace(cloud, directions=directions)).tolist() == [0, 1, 2]
+    far = table_of(POINTS + 9.0, sensor=[1, 0, 1], zone=[4, 17, 5])
+    assert _rows(far, replace(cloud, directions=directions)).tolist() == [-1, -1, -1]
 
 
 def test_sensors_that_are_numbered_differently_are_matched_by_place():

@@ -73,6 +73,13 @@ def test_only_valid_status_counts_whatever_the_distance_says():
     assert np.argwhere(np.isfinite(values)).tolist() == [[1, 1], [2, 2]]
 
 
+def test_a_status_of_another_size_is_refused():
+    image = picture(np.full((8, 8), 1000, "<u2"), "16UC1")
+    status = picture(np.full((4, 4), 5, np.uint8), "8UC1", height=4, width=4, step=4)
+    with pytest.raises(RecordingError, match="A status image of eye is 4 x 4, and not 8 x 8"):
+        readings(image, status, SENSOR)
+
+
 def test_the_models_order_and_limits_are_applied():
     model = SensorModel(flip_vertical=True, flip_horizontal=True)
     sensor = replace(SENSOR, arrange=model.arrange, limits=(0.01, 0.06))

@@ -6,6 +6,8 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
 from recordings import Frame, PointTruth, Provenance, RecordingError, open_recording
+from recordings import ros_messages as ros
+from recordings.point_truth import fields_of
 from recordings.writer import RecordingWriter
 from robot_assets import load_rig, load_robot
 from tests.recordings.foreign import at
@@ -116,6 +118,16 @@ def test_another_reader_finds_standard_messages(written: Path):
                 assert message.header.frame_id == "tof_elbow_3_optical_frame"
     assert counts["/tof/base/0/image"] == counts["/tf"] == counts["/joint_states"] == 12
     assert counts["/tf_static"] == counts["/robot_description"] == 1
+
+
+@pytest.mark.parametrize("sensors", [24, 256, 257, 1000])
+def test_the_truth_of_points_counts_as_many_sensors_as_there_are(sensors: int):
+    last, zeros = np.array([0, sensors - 1]), np.zeros((2, 3))
+    truth = PointTruth(zeros, zeros, np.array([3, 40]), last, np.array([0, 4095]))
+    table = fields_of(ros.points(0, "base", truth, sensors))
+    assert table["sensor"].tolist() == [0, sensors - 1]
+    assert table["zone"].tolist() == [0, 4095]
+    assert table["object"].tolist() == [3, 40]
 
 
 def test_nothing_is_left_of_a_recording_that_failed(tmp_path: Path):

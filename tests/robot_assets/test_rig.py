@@ -131,6 +131,17 @@ def test_a_single_sensor_looks_forward_with_its_up_side_up(tmp_path):
     )
 
 
+def test_a_field_of_view_may_differ_across_and_down(tmp_path):
+    rig = rig_of(tmp_path, (HEAD + RING).replace("= 45.0", "= [41.0, 52]"))
+    assert rig.model.field_of_view == pytest.approx(np.radians(41))
+    assert rig.model.vertical_field_of_view == pytest.approx(np.radians(52))
+
+
+def test_a_single_sensor_may_belong_to_a_ring(tmp_path):
+    (sensor,) = rig_of(tmp_path, HEAD + SINGLE + 'ring = "arm"\n').sensors
+    assert sensor.ring == "arm"
+
+
 def test_rings_and_single_sensors_together(tmp_path):
     names = [s.name for s in rig_of(tmp_path, HEAD + RING + SINGLE).sensors]
     assert names == [f"base/{i}" for i in range(8)] + ["wrist"]
@@ -147,6 +158,16 @@ WRONG = [
         "field_of_view_deg = 45.0",
         "field_of_view_deg = 180",
         "field_of_view_deg must be a number from",
+    ),
+    (
+        "field_of_view_deg = 45.0",
+        "field_of_view_deg = [45, 45, 45]",
+        "field_of_view_deg must be a number from 1 to 170, or two of them, got [45, 45, 45].",
+    ),
+    (
+        "field_of_view_deg = 45.0",
+        "field_of_view_deg = [45, 180]",
+        "field_of_view_deg must be a number from 1 to 170, or two of them, got [45, 180].",
     ),
     (
         "min_range_m = 0.02",
@@ -218,8 +239,32 @@ def test_names_are_unique(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("Base 0", "the names 'base/0' and 'Base 0' must differ in letters or digits"),
+        ("/-/", "the name '/-/' of a sensor must have a letter or a digit."),
+    ],
+)
+def test_names_must_be_told_apart_in_topics(tmp_path, name, sentence):
+    with pytest.raises(RigError, match=sentence):
+        rig_of(tmp_path, HEAD + RING + SINGLE.replace("wrist", name))
+
+
+def test_a_rig_has_at_most_a_thousand_sensors(tmp_path):
+    many = RING.replace("count = 8", "count = 1000")
+    with pytest.raises(RigError, match="there must be at most 1000 sensors"):
+        rig_of(tmp_path, HEAD + many + SINGLE)
+    assert len(rig_of(tmp_path, HEAD + many).sensors) == 1000
+
+
+@pytest.mark.parametrize(
     ("content", "sentence"),
-    [(b"name = ", "is not a TOML file: "), (b"\xff\xfe", "is not a TOML file: ")],
+    [
+        (b"name = ", "is not a TOML file: "),
+        (b"\xff\xfe", "is not a TOML file: "),
+        (b"name = " + 10_000 * b"1", "is not a TOML file: "),
+        (b"name = " + 10_000 * b"[", "is not a TOML file: "),
+    ],
 )
 def test_what_is_no_toml(tmp_path, content, sentence):
     path = tmp_path / "my_rig.toml"

@@ -73,3 +73,38 @@ SEEN = np.array([(1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (7.0, 8.0, 9.0)])
 def test_readings_come_out_as_the_world_is_seen(settings, delivered):
     model = SensorModel(rows=3, columns=3, **settings)
     assert model.arrange(np.ascontiguousarray(delivered)).tolist() == SEEN.tolist()
+
+
+@pytest.mark.parametrize("shape", [(2, 3), (3, 2)])
+def test_readings_down_the_columns_come_out_in_rows_whatever_the_image_is_called(shape):
+    seen = np.array([(1, 2, 3), (4, 5, 6)])
+    delivered = np.array([1, 4, 2, 5, 3, 6], dtype=np.uint8).reshape(shape)
+    model = SensorModel(rows=2, columns=3, reading_order="column_major")
+    assert model.arrange(delivered).tolist() == seen.tolist()
+    assert model.delivers(*shape)
+    assert SensorModel(rows=2, columns=3).delivers(*shape) == (shape == (2, 3))
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(4, 4), (4, 8), (3, 2), (64, 64)])
+@pytest.mark.parametrize(("across", "down"), [(60, None), (41, 52), (120, 20)])
+def test_any_grid_fills_its_field_of_view(rows, columns, across, down):
+    vertical = None if down is None else np.radians(down)
+    model = SensorModel(
+        rows=rows,
+        columns=columns,
+        field_of_view=np.radians(across),
+        vertical_field_of_view=vertical,
+    )
+    half_width = np.tan(np.radians(across / 2))
+    half_height = np.tan(np.radians((across if down is None else down) / 2))
+    corner = model.directions[-1, -1]
+    assert corner == pytest.approx(
+        (half_width * (1 - 1 / columns), half_height * (1 - 1 / rows), 1.0)
+    )
+
+
+def test_as_depth_images_readings_are_in_order_and_along_the_axis():
+    odd = SensorModel(
+        rows=4, columns=4, distance="radial", reading_order="column_major", flip_vertical=True
+    )
+    assert odd.of_depth_images() == SensorModel(rows=4, columns=4)

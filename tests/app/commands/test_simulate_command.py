@@ -1,3 +1,4 @@
+import json
 from pathlib import Path
 
 import pytest
@@ -64,6 +65,81 @@ def test_imperfections_are_written_down(tmp_path: Path, capsys: pytest.CaptureFi
     said = capsys.readouterr().out
     assert "\nimperfections bias, ramps\n" in said
     assert "--noise none --imperfections bias ramps --out mine.mcap\n" in said
+
+
+RIG = """
+name = "two eyes"
+
+[sensor_model]
+name = "coarse"
+rows = 4
+columns = 4
+field_of_view_deg = 60.0
+min_range_m = 0.02
+max_range_m = 4.0
+distance = "perpendicular"
+reading_order = "row_major"
+flip_vertical = false
+flip_horizontal = false
+
+[[sensors]]
+name = "left"
+link = "panda_link0"
+position_m = [-0.2, 0.1, 0.45]
+forward = [0.2, 1.0, 0.0]
+up = [0.0, 0.0, 1.0]
+
+[[sensors]]
+name = "right"
+link = "panda_hand"
+position_m = [0.2, 0.1, 0.0]
+forward = [0.0, 0.0, 1.0]
+up = [0.0, 1.0, 0.0]
+"""
+
+
+def test_a_rig_of_ones_own_is_simulated_and_evaluated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    rig = tmp_path / "mine.toml"
+    rig.write_text(RIG)
+    out = tmp_path / "out"
+    assert main(["simulate", "towards", *QUICK, "--rig", str(rig), "--out", str(out)]) == 0
+    assert made(out) == ["towards_1.00_2.mcap"]
+    path = out / "towards_1.00_2.mcap"
+    with open_recording(path) as recording:
+        assert [(s.name, s.grid) for s in recording.sensors] == [
+            ("left", (4, 4)),
+            ("right", (4, 4)),
+        ]
+        assert recording.provenance is not None
+        assert recording.provenance.rig == "two eyes"
+    capsys.readouterr()
+    table = tmp_path / "errors.json"
+    few = ["--n", "2", "--n-min", "6", "--min-cluster-size", "2", "--delta", "0.02"]
+    assert main(["evaluate", str(path), *few, "--json", str(table)]) == 0
+    (row,) = json.loads(table.read_text())["recordings"]
+    assert row["pairs"] > 0
+    assert row["coverage"] is not None
+    assert row["epe3d"] is not None
+
+
+def test_a_rig_that_cannot_be_used_is_one_sentence_and_nothing_is_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    out = tmp_path / "out"
+    rig = tmp_path / "mine.toml"
+    for wrong, said in [
+        (("rows = 4", "rows = 1"), "sensor_model.rows must be a whole number from 2 to 64, got 1."),
+        (("panda_hand", "wheel"), "fixes sensor right to link wheel, which the robot panda has"),
+        (("[[sensors]]", "[[sensor]]"), "sensor is not a known key"),
+    ]:
+        rig.write_text(RIG.replace(*wrong))
+        assert main(["simulate", "towards", *QUICK, "--rig", str(rig), "--out", str(out)]) == 1
+        errors = capsys.readouterr().err.strip().splitlines()
+        assert len(errors) == 1
+        assert said in errors[0]
+    assert made(tmp_path) == ["mine.toml"]
 
 
 def test_all_combinations_once(tmp_path: Path):

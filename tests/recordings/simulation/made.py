@@ -5,7 +5,7 @@ from pathlib import Path
 
 from recordings import Frame
 from recordings.simulation import NOISE_MODELS, SCENARIOS, Scenario, simulate, write_simulation
-from robot_assets import load_rig, load_robot
+from robot_assets import Rig, load_rig, load_robot
 
 ROBOT, RIG = load_robot(), load_rig()
 
@@ -17,6 +17,7 @@ def frames(
     seed: int = 0,
     noise: str = "none",
     imperfections: Sequence[str] = (),
+    rig: Rig = RIG,
 ) -> Iterator[Frame]:
     return simulate(
         scenario,
@@ -26,7 +27,7 @@ def frames(
         noise=NOISE_MODELS[noise],
         imperfections=imperfections,
         robot=ROBOT,
-        rig=RIG,
+        rig=rig,
     )
 
 
@@ -36,6 +37,7 @@ def written(
     speed: float | None = None,
     noise: str = "none",
     imperfections: Sequence[str] = (),
+    rig: Rig = RIG,
 ) -> Path:
     scenario = SCENARIOS[name]
     write_simulation(
@@ -47,6 +49,6 @@ def written(
         noise=NOISE_MODELS[noise],
         imperfections=imperfections,
         robot=ROBOT,
-        rig=RIG,
+        rig=rig,
     )
     return path

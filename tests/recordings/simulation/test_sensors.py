@@ -34,12 +34,11 @@ def test_a_wall_straight_ahead_has_one_perpendicular_distance():
     assert (piece == 7).all()
 
 
-def test_a_radial_sensor_reads_the_mean_along_its_rays():
+def test_a_radial_sensor_reads_along_the_rays_of_its_zones():
     model = SensorModel(distance="radial")
     readings, _ = read({0: wall(1.3)}, model)
-    # Lengths of the zones' own rays; a footprint is small enough for the mean to be near them.
     lengths = np.linalg.norm(SensorModel().directions, axis=-1)
-    assert readings == pytest.approx(1.3 * lengths, rel=1e-3)
+    assert readings == pytest.approx(1.3 * lengths, abs=1e-5)
 
 
 def test_a_slanted_wall_is_read_at_the_middle_of_each_zone():

@@ -1,0 +1,41 @@
+"""The rig that a recording of ours was made with: an attachment of the file, and its topics."""
+
+from recordings.mcap_file import McapFile
+from robot_assets import Rig, RigError, parse_rig, rig_text
+
+RIG_ATTACHMENT = "rig.toml"
+"""A rig file, as people give it with --rig."""
+RIG_TYPE = "application/toml"
+_LARGEST = 1_000_000  # bytes; a thousand sensors need a third of it
+
+
+def packed(rig: Rig) -> bytes:
+    """The attachment that holds a rig."""
+    return rig_text(rig).encode("utf-8")
+
+
+def rig_of(file: McapFile) -> tuple[Rig | None, list[str]]:
+    """The rig that a recording of ours was made with, None where the file has none.
+
+    Returns:
+        It, and a sentence where what is there is none that can be used.
+    """
+    content = file.attachments.get(RIG_ATTACHMENT)
+    if content is None:
+        return None, []
+    if len(content) > _LARGEST:
+        return None, [f"The file's own rig has {len(content)} bytes, too many; it is not used."]
+    try:
+        return parse_rig(content, f"{RIG_ATTACHMENT} in the file"), []
+    except RigError as error:
+        return None, [f"{error} It is not used."]
+
+
+def topic_part(sensor_name: str) -> str:
+    """What stands for a sensor in topics and frames."""
+    return sensor_name.strip("/").replace(" ", "_")
+
+
+def depth_topic(part: str) -> str:
+    """The topic of a sensor's ranges."""
+    return f"/tof/{part}/image"
