@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 
-from estimator import CloudPair, Parameters, cloud_pair, estimate_pair
+from estimator import Parameters, Window, window_of_pair
+from estimator import estimate as estimate_window
+from estimator.stages import Stages
 from recordings import open_recording, sample_paths
 
 _SWEEPS: dict[str, list[dict[str, float | int | str]]] = {
@@ -24,17 +26,17 @@ _SWEEPS: dict[str, list[dict[str, float | int | str]]] = {
 _STEP = 4  # pairs
 
 
-def _pairs() -> Iterator[CloudPair]:
+def _pairs() -> Iterator[Window]:
     n = Parameters().n
     for path in sample_paths():
         with open_recording(path) as recording:
             for k in range(n, len(recording), _STEP):
                 interval = float(recording.stamps[k] - recording.stamps[k - n])
-                yield cloud_pair(recording.cloud(k - n), recording.cloud(k), interval)
+                yield window_of_pair(recording.cloud(k - n), recording.cloud(k), interval)
 
 
-def _forgotten(pair: CloudPair) -> CloudPair:
-    return CloudPair(pair.source, pair.target, pair.interval)
+def _forgotten(pair: Window) -> Window:
+    return replace(pair, stages=Stages())
 
 
 def _milliseconds(estimate: Callable[[], object]) -> float:
@@ -52,12 +54,12 @@ def main() -> None:
         kept: list[float] = []
         for pair in pairs:
             remembering = _forgotten(pair)
-            estimate_pair(remembering, default)  # what is on the screen before the slider moves
+            estimate_window(remembering, default)  # what is on the screen before the slider moves
             for value in values:
                 parameters = replace(default, **value)  # pyright: ignore[reportArgumentType]
                 fresh = _forgotten(pair)
-                again.append(_milliseconds(partial(estimate_pair, fresh, parameters)))
-                kept.append(_milliseconds(partial(estimate_pair, remembering, parameters)))
+                again.append(_milliseconds(partial(estimate_window, fresh, parameters)))
+                kept.append(_milliseconds(partial(estimate_window, remembering, parameters)))
         medians, sums = [(f(again), f(kept)) for f in (statistics.median, sum)]
         print(
             f"{slider:17} again {medians[0]:6.2f} ms  remembered {medians[1]:6.2f} ms"

@@ -1,4 +1,4 @@
-"""What an estimate accepts as clouds and interval."""
+"""Clouds and intervals that an estimate accepts."""
 
 import math
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from estimator import CloudError
-from estimator.cloud import cloud_pair
+from estimator.window import window_of_pair
 
 ONE = [[1.0, 2.0, 3.0]]
 
@@ -19,24 +19,24 @@ class RecordedCloud:
 
 @pytest.mark.parametrize("empty", [[], np.zeros(0), np.zeros((0, 3)), ()])
 def test_an_empty_cloud_has_no_points(empty):
-    pair = cloud_pair(empty, ONE, 0.5)
-    assert pair.source.shape == (0, 3)
-    assert pair.target.shape == (1, 3)
+    window = window_of_pair(empty, ONE, 0.5)
+    assert window.source.points.shape == (0, 3)
+    assert window.target.points.shape == (1, 3)
 
 
 @pytest.mark.parametrize("kind", [list, np.float32, np.int64])
 def test_numbers_become_float64(kind):
     points = ONE if kind is list else np.array(ONE, dtype=kind)
-    pair = cloud_pair(points, points, 1)
-    assert pair.source.dtype == np.float64
-    assert pair.source.tolist() == ONE
-    assert pair.interval == 1.0
+    window = window_of_pair(points, points, 1)
+    assert window.source.points.dtype == np.float64
+    assert window.source.points.tolist() == ONE
+    assert window.interval == 1.0
 
 
 def test_a_cloud_with_points_is_taken_as_it_is():
     points = np.array(ONE)
-    pair = cloud_pair(RecordedCloud(points), points, 0.5)
-    assert pair.source is points
+    window = window_of_pair(RecordedCloud(points), points, 0.5)
+    assert np.shares_memory(window.source.points, points)
 
 
 @pytest.mark.parametrize(
@@ -46,36 +46,36 @@ def test_a_cloud_with_points_is_taken_as_it_is():
 def test_a_wrong_shape_is_one_sentence_that_says_where(points, place):
     clouds = {"source": ONE, "target": ONE, place: points}
     with pytest.raises(CloudError) as caught:
-        cloud_pair(clouds["source"], clouds["target"], 0.5)
+        window_of_pair(clouds["source"], clouds["target"], 0.5)
     assert str(caught.value).startswith(f"The {place} must have the shape (N, 3), got (")
 
 
 @pytest.mark.parametrize("points", [np.zeros((3, 0)), np.zeros((0, 2)), [[]]])
 def test_an_empty_array_of_another_shape_is_no_cloud(points):
     with pytest.raises(CloudError, match=r"must have the shape \(N, 3\)"):
-        cloud_pair(points, ONE, 0.5)
+        window_of_pair(points, ONE, 0.5)
 
 
 @pytest.mark.parametrize("points", ["abc", [["a", "b", "c"]], [[1.0, 2.0, 3.0], [1.0]], [{}]])
 def test_what_holds_no_numbers_is_refused(points):
     with pytest.raises(CloudError, match=r"^The target must hold numbers"):
-        cloud_pair(ONE, points, 0.5)
+        window_of_pair(ONE, points, 0.5)
 
 
 def test_lengths_whose_squares_overflow_are_refused():
     with pytest.raises(CloudError, match=r"^The target must lie within 1e\+100 m, got 1e\+200 m\."):
-        cloud_pair(ONE, [[0.0, -1e200, np.nan]], 0.5)
-    assert cloud_pair(ONE, [[0.0, 1e100, np.inf]], 0.5).target[0, 1] == 1e100
+        window_of_pair(ONE, [[0.0, -1e200, np.nan]], 0.5)
+    assert window_of_pair(ONE, [[0.0, 1e100, np.inf]], 0.5).target.points[0, 1] == 1e100
 
 
 @pytest.mark.parametrize("interval", [0, 0.0, -0.5, math.nan, math.inf, -math.inf, None, "1", [1]])
 def test_an_interval_is_a_number_of_seconds_above_zero(interval):
     with pytest.raises(CloudError, match=r"^The interval must be a finite number of seconds"):
-        cloud_pair(ONE, ONE, interval)
+        window_of_pair(ONE, ONE, interval)
 
 
 @pytest.mark.parametrize("interval", [1, np.float32(0.5), np.float64(0.5), np.int64(2)])
 def test_any_kind_of_number_is_an_interval(interval):
-    pair = cloud_pair(ONE, ONE, interval)
-    assert pair.interval == float(interval)
-    assert isinstance(pair.interval, float)
+    window = window_of_pair(ONE, ONE, interval)
+    assert window.interval == float(interval)
+    assert isinstance(window.interval, float)

@@ -6,16 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sklearn.cluster import HDBSCAN
 
-from estimator import Parameters
-from estimator.cloud import CloudPair
+from estimator import Parameters, Window, window_of_pair
 from estimator.clustering import clusters_of
 from tests.estimator.scenes import cluttered, moved_patches
 
 
-def labels_of(pair: CloudPair, parameters: Parameters) -> tuple[np.ndarray, np.ndarray]:
+def labels_of(window: Window, parameters: Parameters) -> tuple[np.ndarray, np.ndarray]:
     """A label per target and per source point, -1 for noise."""
-    target, source = np.full(len(pair.target), -1), np.full(len(pair.source), -1)
-    for cluster in clusters_of(pair, parameters):
+    target, source = np.full(len(window.target.points), -1), np.full(len(window.source.points), -1)
+    for cluster in clusters_of(window, parameters):
         assert (target[cluster.target] == -1).all()
         assert (source[cluster.source] == -1).all()
         target[cluster.target] = cluster.index
@@ -36,7 +35,7 @@ def labels_of(pair: CloudPair, parameters: Parameters) -> tuple[np.ndarray, np.n
 @pytest.mark.parametrize("seed", range(5))
 def test_scikit_learn_finds_the_same_with_the_target_first(seed, settings):
     scene, parameters = cluttered(seed), Parameters(**settings)
-    target, source = labels_of(CloudPair(scene.source, scene.target, 1.0), parameters)
+    target, source = labels_of(window_of_pair(scene.source, scene.target, 1.0), parameters)
     expected = HDBSCAN(
         min_cluster_size=parameters.min_cluster_size,
         min_samples=parameters.min_samples,
@@ -48,7 +47,7 @@ def test_scikit_learn_finds_the_same_with_the_target_first(seed, settings):
 
 def test_patches_far_apart_are_clusters_of_their_own():
     scene = moved_patches(np.random.default_rng(0), np.zeros((4, 3)))
-    clusters = clusters_of(CloudPair(scene.source, scene.target, 1.0), Parameters())
+    clusters = clusters_of(window_of_pair(scene.source, scene.target, 1.0), Parameters())
     assert [cluster.index for cluster in clusters] == [0, 1, 2, 3]
     found = {tuple(cluster.source) for cluster in clusters}
     assert found == {tuple(np.flatnonzero(scene.patch == p)) for p in range(4)}
@@ -57,9 +56,9 @@ def test_patches_far_apart_are_clusters_of_their_own():
 
 def test_one_object_alone_needs_allow_single_cluster():
     scene = moved_patches(np.random.default_rng(0), np.zeros((1, 3)), size=60)
-    pair = CloudPair(scene.source, scene.target, 1.0)
-    assert clusters_of(pair, Parameters()) == ()
-    (alone,) = clusters_of(pair, Parameters(allow_single_cluster=True))
+    window = window_of_pair(scene.source, scene.target, 1.0)
+    assert clusters_of(window, Parameters()) == ()
+    (alone,) = clusters_of(window, Parameters(allow_single_cluster=True))
     assert len(alone.source) == len(alone.target) > 0
 
 
@@ -70,9 +69,9 @@ def test_points_that_are_not_finite_change_nothing_for_the_others(seed, share, v
     holed = scene.source.copy()
     holed[gone, rng.integers(0, 3)] = value
 
-    target, source = labels_of(CloudPair(holed, scene.target, 1.0), Parameters())
+    target, source = labels_of(window_of_pair(holed, scene.target, 1.0), Parameters())
     target_without, source_without = labels_of(
-        CloudPair(scene.source[~gone], scene.target, 1.0), Parameters()
+        window_of_pair(scene.source[~gone], scene.target, 1.0), Parameters()
     )
     assert (source[gone] == -1).all()
     assert source[~gone].tolist() == source_without.tolist()
@@ -91,7 +90,7 @@ def test_points_that_are_not_finite_change_nothing_for_the_others(seed, share, v
 def test_fewer_points_than_hdbscan_needs_give_no_cluster(sizes, settings):
     rng = np.random.default_rng(0)
     source, target = (rng.normal(size=(size, 3)) for size in sizes)
-    assert clusters_of(CloudPair(source, target, 1.0), Parameters(**settings)) == ()
+    assert clusters_of(window_of_pair(source, target, 1.0), Parameters(**settings)) == ()
 
 
 @pytest.mark.parametrize("settings", [{"min_cluster_size": 20}, {"min_samples": 40}])
@@ -99,12 +98,12 @@ def test_just_as_many_points_as_hdbscan_needs(settings):
     rng = np.random.default_rng(0)
     source, target = rng.normal(size=(2, settings.get("min_samples", 20) // 2, 3))
     parameters = Parameters(allow_single_cluster=True, **settings)
-    clusters_of(CloudPair(source, target, 1.0), parameters)
+    clusters_of(window_of_pair(source, target, 1.0), parameters)
 
 
 def test_the_clouds_are_left_as_they_were():
     scene = cluttered(0)
     source, target = scene.source.copy(), scene.target.copy()
-    clusters_of(CloudPair(source, target, 1.0), Parameters())
+    clusters_of(window_of_pair(source, target, 1.0), Parameters())
     assert (source == scene.source).all()
     assert (target == scene.target).all()

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
+from estimator import find_method, method_names
 from estimator.baseline import baseline
-from estimator.methods import method, method_names
 from estimator.paper import algorithm_1
 
 
@@ -15,13 +15,13 @@ def test_the_papers_method_comes_first():
 
 
 def test_a_name_leads_to_its_function():
-    assert method("paper") is algorithm_1
-    assert method("baseline") is baseline
+    assert find_method("paper").flow is algorithm_1
+    assert find_method("baseline").flow is baseline
 
 
 def test_there_is_no_method_of_another_name():
     with pytest.raises(KeyError):
-        method("")
+        find_method("")
 
 
 def test_naming_the_methods_loads_neither_open3d_nor_scikit_learn():

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import estimator.paper
-from estimator import Label, Parameters, estimate_scene_flow
-from estimator.cloud import CloudPair
+from estimator import Label, Parameters, Window, estimate_scene_flow, window_of_pair
 from estimator.flow import Cluster
 from estimator.paper import classify
 from tests.estimator.judge import judge
@@ -70,10 +69,10 @@ def test_a_mean_displacement_of_just_delta_moves():
         assert again.moving.any() == moves
 
 
-def whole(source: np.ndarray, target: np.ndarray) -> tuple[Cluster, CloudPair]:
+def whole(source: np.ndarray, target: np.ndarray) -> tuple[Cluster, Window]:
     """Two clouds as one cluster, whatever HDBSCAN would say."""
-    pair = CloudPair(source, target, INTERVAL)
-    return Cluster(0, np.arange(len(source)), np.arange(len(target))), pair
+    window = window_of_pair(source, target, INTERVAL)
+    return Cluster(0, np.arange(len(source)), np.arange(len(target))), window
 
 
 @pytest.mark.parametrize(("paired", "label"), [(7, Label.UNASSIGNED), (8, Label.STATIONARY)])

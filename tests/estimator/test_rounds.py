@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from estimator import Parameters
-from estimator.cloud import CloudPair
+from estimator import Parameters, window_of_pair
 from estimator.rounds import icp_round, too_few_points
 from tests.estimator.scenes import corner
 
@@ -47,8 +46,8 @@ def test_a_round_tells_what_icp_did_to_these_points():
     cloud_source, cloud_target = cloud.copy(), cloud.copy()
     cloud_source[source], cloud_target[target] = moving, moving + displacement
 
-    pair = CloudPair(cloud_source, cloud_target, 0.5)
-    current, moved = icp_round(source, target, pair, Parameters())
+    window = window_of_pair(cloud_source, cloud_target, 0.5)
+    current, moved = icp_round(source, target, window, Parameters())
     assert moved.shape == (100, 3)
     assert moved == pytest.approx(np.broadcast_to(displacement, (100, 3)), abs=1e-6)
     assert current.mean_displacement == pytest.approx(0.05, abs=1e-6)
@@ -65,8 +64,8 @@ def test_mean_displacement_is_the_mean_of_the_lengths():
     points -= points.mean(axis=0)
     angle = 0.1
     R = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-    pair = CloudPair(points, points @ R.T, 1.0)
-    current, moved = icp_round(np.arange(200), np.arange(200), pair, Parameters())
+    window = window_of_pair(points, points @ R.T, 1.0)
+    current, moved = icp_round(np.arange(200), np.arange(200), window, Parameters())
     assert moved.mean(axis=0) == pytest.approx([0, 0, 0], abs=1e-9)
     expected = 2 * np.sin(angle / 2) * np.linalg.norm(points[:, :2], axis=1).mean()
     assert current.mean_displacement == pytest.approx(expected, abs=1e-9)

@@ -1,4 +1,4 @@
-"""What is remembered of a pair changes how long an estimate takes, and nothing else."""
+"""What is remembered of a window changes how long an estimate takes, and nothing else."""
 
 import dataclasses
 from typing import Any
@@ -11,13 +11,13 @@ from hypothesis import strategies as st
 import estimator.clustering
 import estimator.rounds
 from estimator import (
-    CloudPair,
     Parameters,
     SceneFlow,
-    cloud_pair,
-    estimate_pair,
+    Window,
+    estimate,
     estimate_scene_flow,
     method_names,
+    window_of_pair,
 )
 from estimator.stages import Stages
 from tests.estimator.scenes import cluttered
@@ -68,61 +68,61 @@ def icps(monkeypatch):
     return counted(monkeypatch, estimator.rounds, "register")
 
 
-def pair_of(seed: int) -> CloudPair:
+def pair_of(seed: int) -> Window:
     scene = cluttered(seed)
-    return cloud_pair(scene.source, scene.target, INTERVAL)
+    return window_of_pair(scene.source, scene.target, INTERVAL)
 
 
 @given(seed=st.integers(0, 999), walk=walks)
 @settings(max_examples=60)
 def test_a_walk_over_parameters_finds_what_each_estimate_finds_alone(seed, walk):
-    scene, pair = cluttered(seed), pair_of(seed)
+    scene, window = cluttered(seed), pair_of(seed)
     for values in walk:
         parameters = Parameters(**values)
         alone = estimate_scene_flow(scene.source, scene.target, INTERVAL, parameters)
-        assert contents(estimate_pair(pair, parameters)) == contents(alone)
+        assert contents(estimate(window, parameters)) == contents(alone)
 
 
-def with_rounds(seed: int = 4) -> tuple[CloudPair, SceneFlow]:
-    """A pair whose estimate took several rounds over some cluster."""
-    pair = pair_of(seed)
-    flow = estimate_pair(pair, Parameters(gamma=0.95, n_min=5))
+def with_rounds(seed: int = 4) -> tuple[Window, SceneFlow]:
+    """A window whose estimate took several rounds over some cluster."""
+    window = pair_of(seed)
+    flow = estimate(window, Parameters(gamma=0.95, n_min=5))
     assert max(len(cluster.rounds) for cluster in flow.clusters) > 2
-    return pair, flow
+    return window, flow
 
 
 def test_lower_thresholds_need_nothing_new(clusterings, icps):
-    pair, _ = with_rounds()
+    window, _ = with_rounds()
     clusterings.clear()
     icps.clear()
     for gamma, delta, n_min in ((0.95, 0.1, 5), (0.7, 0.0, 60), (0.0, 0.04, 20)):
-        estimate_pair(pair, Parameters(gamma=gamma, delta=delta, n_min=n_min))
+        estimate(window, Parameters(gamma=gamma, delta=delta, n_min=n_min))
     assert clusterings == icps == []
 
 
 def test_a_higher_gamma_goes_on_where_the_lower_one_stopped(clusterings, icps):
-    pair = pair_of(4)
-    before = estimate_pair(pair, Parameters(gamma=0.3, n_min=5))
+    window = pair_of(4)
+    before = estimate(window, Parameters(gamma=0.3, n_min=5))
     done = len(icps)
-    after = estimate_pair(pair, Parameters(gamma=0.95, n_min=5))
+    after = estimate(window, Parameters(gamma=0.95, n_min=5))
     assert len(clusterings) == 1
     assert done == sum(len(cluster.rounds) for cluster in before.clusters)
     assert len(icps) == sum(len(cluster.rounds) for cluster in after.clusters) > done
 
 
 def test_a_smaller_n_min_looks_at_the_clusters_that_were_skipped(clusterings, icps):
-    pair = pair_of(4)
-    before = estimate_pair(pair, Parameters(gamma=0.0, n_min=100))
-    after = estimate_pair(pair, Parameters(gamma=0.0, n_min=5))
+    window = pair_of(4)
+    before = estimate(window, Parameters(gamma=0.0, n_min=100))
+    after = estimate(window, Parameters(gamma=0.0, n_min=5))
     seen = [sum(bool(c.rounds) for c in flow.clusters) for flow in (before, after)]
     assert len(icps) == seen[1] > seen[0]
     assert len(clusterings) == 1
 
 
 def test_the_baseline_takes_clusters_and_first_rounds_from_the_paper(clusterings, icps):
-    pair, _ = with_rounds()
+    window, _ = with_rounds()
     done = len(icps)
-    estimate_pair(pair, Parameters(method="baseline", n_min=5))
+    estimate(window, Parameters(method="baseline", n_min=5))
     assert (len(clusterings), len(icps)) == (1, done)
 
 
@@ -130,17 +130,17 @@ def test_the_baseline_takes_clusters_and_first_rounds_from_the_paper(clusterings
     "values", [{"min_cluster_size": 21}, {"min_samples": 4}, {"allow_single_cluster": True}]
 )
 def test_every_setting_of_the_clustering_clusters_anew(values, clusterings):
-    pair = pair_of(0)
+    window = pair_of(0)
     for parameters in (Parameters(), Parameters(**values), Parameters(), Parameters(**values)):
-        estimate_pair(pair, parameters)
+        estimate(window, parameters)
     assert len(clusterings) == 2
 
 
 def test_another_reach_of_icp_is_another_round(icps):
-    pair, _ = with_rounds()
+    window, _ = with_rounds()
     done = len(icps)
     parameters = Parameters(gamma=0.95, n_min=5, max_correspondence_distance=0.2)
-    flow = estimate_pair(pair, parameters)
+    flow = estimate(window, parameters)
     assert len(icps) == done + sum(len(cluster.rounds) for cluster in flow.clusters)
 
 

@@ -48,7 +48,7 @@ def method_name(text: str) -> str:
     try:
         return load_method(text)
     except InputError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
+        raise argparse.ArgumentTypeError(str(error).rstrip(".")) from error
 
 
 def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[str] = ()) -> None:
