@@ -1,9 +1,10 @@
 """The window of frames that a method looks at."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
+from types import MappingProxyType
 from typing import overload
 
 import numpy as np
@@ -50,12 +51,18 @@ class LazyFrames(Sequence[Cloud]):
     Args:
         count: number of frames.
         load: gives the frame at an index; it may be called twice where two threads ask at once.
+        loaded: {index: frame} of those that are there already.
     """
 
-    def __init__(self, count: int, load: Callable[[int], Cloud]) -> None:
+    def __init__(
+        self,
+        count: int,
+        load: Callable[[int], Cloud],
+        loaded: Mapping[int, Cloud] = MappingProxyType({}),
+    ) -> None:
         self._count = count
         self._load = load
-        self._loaded: dict[int, Cloud] = {}
+        self._loaded = {at: _checked(at, frame) for at, frame in loaded.items()}
 
     def __len__(self) -> int:
         return self._count
@@ -72,8 +79,12 @@ class LazyFrames(Sequence[Cloud]):
         if not 0 <= at < self._count:
             raise IndexError(f"There are {self._count} frames, and not one at {index}.")
         if at not in self._loaded:
-            self._loaded[at] = with_checked_points(f"frame {at} of the window", self._load(at))
+            self._loaded[at] = _checked(at, self._load(at))
         return self._loaded[at]
+
+
+def _checked(index: int, frame: Cloud) -> Cloud:
+    return with_checked_points(f"frame {index} of the window", frame)
 
 
 def window_of_pair(

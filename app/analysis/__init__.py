@@ -1,5 +1,5 @@
 """Recordings and parameters in; pairs, flows and numbers out."""
 
-from app.analysis.flows import flows
+from app.analysis.pair_estimator import flows
 
 __all__ = ["flows"]

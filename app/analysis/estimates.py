@@ -3,9 +3,9 @@
 import numpy as np
 
 from app.analysis.cache import Memory
-from app.analysis.flows import PairEstimator
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
+from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, PreparedPair, prepare_pair
 from app.analysis.timeline import Outline
 from estimator import Parameters, estimate_scene_flow
@@ -17,7 +17,7 @@ def warm_up() -> None:
     steps = np.linspace(0.0, 0.1, 6)
     patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
     cloud = np.vstack([patch, patch + 2.0])
-    estimate_scene_flow(cloud, cloud, 1.0, Parameters())
+    estimate_scene_flow(cloud, cloud, 1.0, Parameters(n_min=1))
 
 
 class Estimates:

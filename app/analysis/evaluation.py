@@ -8,7 +8,7 @@ from time import thread_time
 
 import numpy as np
 
-from app.analysis.flows import PairEstimator
+from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import PreparedPair, prepare_pair
 from estimator import MOVING_SPEED, Metrics, Parameters, PooledErrors
 from recordings import Recording, RecordingError

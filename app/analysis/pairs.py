@@ -128,8 +128,9 @@ def prepare_pair(
     target, link_poses = load(k), recording.link_poses(k)
     if source_k < 0:
         return PreparedPair(Pair(k, target, None, float("nan"), link_poses, None), None)
-    frames = LazyFrames(parameters.n + 1, lambda index: load(source_k + index))
+    source, n = load(source_k), parameters.n
+    frames = LazyFrames(n + 1, lambda index: load(source_k + index), {0: source, n: target})
     window = Window(frames, recording.stamps[source_k : k + 1])
     truth = recording.pair_truth(source_k, k, max_range)
-    pair = Pair(k, target, load(source_k), window.interval, link_poses, truth)
+    pair = Pair(k, target, source, window.interval, link_poses, truth)
     return PreparedPair(pair, window)

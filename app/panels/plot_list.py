@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import viser
 
-from app.analysis.evaluation import COLUMNS
 from app.analysis.survey import Survey
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
+from estimator import METRIC_INFO
 
 _HEIGHT = 58  # pixels
 _MEANS = {
@@ -75,7 +75,7 @@ class PlotSpec:
 
     def data(self, survey: Survey) -> tuple[np.ndarray, ...]:
         """Values of each line at every frame."""
-        return tuple(getattr(survey, line.name) for line in self.lines)
+        return tuple(_values(survey, line.name) for line in self.lines)
 
     def scales(self, seconds: float, survey: Survey | None) -> dict[str, Any]:
         """Axes from 0: the whole recording, and a round number above all values."""
@@ -134,7 +134,7 @@ class PlotSpec:
         return gui.add_uplot(data, self.series(colours), **options)
 
     def _value(self, line: Line, survey: Survey | None, frame: int, colours: Palette) -> str:
-        value = float(getattr(survey, line.name)[frame]) if survey else math.nan
+        value = float(_values(survey, line.name)[frame]) if survey else math.nan
         text = "–" if math.isnan(value) else format(value, self.form)
         return (
             '<span style="width: 0.6em; height: 0.6em; border-radius: 50%; align-self: center;'
@@ -142,6 +142,10 @@ class PlotSpec:
             f'{line.label}<span style="font-variant-numeric: tabular-nums; text-align: right;'
             f' margin-left: 0.4em; min-width: 2.5em">{text}</span>'
         )
+
+
+def _values(survey: Survey, name: str) -> np.ndarray:
+    return survey.metrics[name] if name in survey.metrics else getattr(survey, name)
 
 
 def _axes(*, labelled: bool) -> tuple[Any, ...]:
@@ -212,7 +216,7 @@ def _means(survey: Survey) -> str:
     cells = []
     for name, title in _MEANS.items():
         value = getattr(metrics, name)
-        text = "–" if math.isnan(value) else format(value, COLUMNS[name][1])
+        text = METRIC_INFO[name].text(value)
         cells.append(
             f'<span style="display: flex"><span style="flex: 1">{title}</span>'
             f'<span style="font-variant-numeric: tabular-nums">{text}</span></span>'

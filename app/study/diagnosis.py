@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.evaluation import counting_pairs
-from app.analysis.flows import PairEstimator
+from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, prepare_pair
 from app.study.words import span
 from estimator import MOVING_SPEED, Label, Parameters, SceneFlow

@@ -39,7 +39,7 @@ def versions() -> dict[str, str]:
 
 
 _OF_APP = (
-    *(f"analysis/{name}.py" for name in ("pairs", "flows", "evaluation")),
+    *(f"analysis/{name}.py" for name in ("pairs", "pair_estimator", "evaluation")),
     *(f"study/{name}.py" for name in ("work", "diagnosis", "words")),
 )
 """Files of `app` that decide results."""

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-import app.analysis.estimates
+import app.analysis.pair_estimator
 from app.analysis.estimates import Estimates
 from app.analysis.library import Library
 from app.server.session import Session, Shared
@@ -21,7 +21,7 @@ class Runs:
 
     def __init__(self, monkeypatch):
         self.parameters, self.delay, self.error = [], 0.0, None
-        real = app.analysis.estimates.estimate_pair
+        real = app.analysis.pair_estimator.estimate
 
         def run(pair, parameters):
             self.parameters.append(parameters)
@@ -30,7 +30,7 @@ class Runs:
                 raise self.error
             return real(pair, parameters)
 
-        monkeypatch.setattr(app.analysis.estimates, "estimate_pair", run)
+        monkeypatch.setattr(app.analysis.pair_estimator, "estimate", run)
 
     def __len__(self):
         return len(self.parameters)

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sklearn.cluster
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import estimator.clustering
 import estimator.rounds
 from estimator import (
     Parameters,
@@ -60,7 +60,7 @@ def counted(monkeypatch, module, name) -> list[Any]:
 
 @pytest.fixture
 def clusterings(monkeypatch):
-    return counted(monkeypatch, estimator.clustering, "HDBSCAN")
+    return counted(monkeypatch, sklearn.cluster, "HDBSCAN")
 
 
 @pytest.fixture

@@ -1,10 +1,13 @@
+import subprocess
+import sys
+
 import numpy as np
 import pytest
+import sklearn.cluster
 
-import app.analysis.estimates
-import estimator.clustering
+import app.analysis.pair_estimator
 import estimator.rounds
-from app.analysis.estimates import Estimates, warm_up
+from app.analysis.estimates import Estimates
 from estimator import Label, Parameters
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
 
@@ -15,13 +18,13 @@ MOVING = 100  # points of the moving patch, the last of the cloud
 def counted(monkeypatch):
     """How many times the estimator ran."""
     runs = []
-    real = app.analysis.estimates.estimate_pair
+    real = app.analysis.pair_estimator.estimate
 
     def count(*arguments):
         runs.append(arguments)
         return real(*arguments)
 
-    monkeypatch.setattr(app.analysis.estimates, "estimate_pair", count)
+    monkeypatch.setattr(app.analysis.pair_estimator, "estimate", count)
     return runs
 
 
@@ -94,9 +97,12 @@ def test_without_truth_there_are_no_errors():
     assert pair.truly_moving.all()
 
 
-def test_warming_up_estimates_once(counted):
-    warm_up()
-    assert len(counted) == 1
+def test_warming_up_loads_what_an_estimate_needs():
+    code = (
+        "import sys; from app.analysis.estimates import warm_up; warm_up();"
+        "sys.exit(not {'open3d', 'sklearn.cluster'} <= set(sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatch):
@@ -105,7 +111,7 @@ def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatc
     for name in ("cloud", "pair_truth", "link_poses"):
         real = getattr(fake, name)
         setattr(fake, name, lambda *a, real=real: read.append(a) or real(*a))
-    for module, name in ((estimator.clustering, "HDBSCAN"), (estimator.rounds, "register")):
+    for module, name in ((sklearn.cluster, "HDBSCAN"), (estimator.rounds, "register")):
         real = getattr(module, name)
         monkeypatch.setattr(module, name, lambda *a, real=real, **k: ran.append(a) or real(*a, **k))
     estimates, opened = Estimates(), fake_opened(fake)
@@ -122,10 +128,8 @@ def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatc
 
 
 def test_what_is_remembered_of_pairs_is_bounded(monkeypatch):
-    runs, real = [], estimator.clustering.HDBSCAN
-    monkeypatch.setattr(
-        estimator.clustering, "HDBSCAN", lambda *a, **k: runs.append(k) or real(*a, **k)
-    )
+    runs, real = [], sklearn.cluster.HDBSCAN
+    monkeypatch.setattr(sklearn.cluster, "HDBSCAN", lambda *a, **k: runs.append(k) or real(*a, **k))
     estimates, opened = Estimates(pairs=2), fake_opened()
     for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
         estimates.estimated(opened, k, Parameters(delta=delta))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
-from app.analysis.evaluation import evaluate
+from app.analysis.evaluation import Ask, evaluate, evaluate_all
 from app.analysis.survey import Survey, coarse_to_fine
 from estimator import Parameters
 from recordings import PairTruth, RecordingError, open_recording, sample_paths
@@ -22,15 +22,20 @@ def filled(opened, parameters, estimates=None):
 def test_every_frame_of_a_patch_that_moves():
     survey = filled(fake_opened(), Parameters())
     assert survey.complete
-    for values in (survey.moving, survey.speed, survey.angle_deg, survey.coverage):
+    for values in (
+        survey.moving,
+        survey.speed,
+        survey.metrics["angle_deg"],
+        survey.metrics["coverage"],
+    ):
         assert np.isnan(values[:8]).all()
     assert (survey.moving[8:] == 100).all()
     np.testing.assert_allclose(survey.speed[8:], 0.15, atol=1e-3)
     np.testing.assert_allclose(survey.true_speed[8:], 0.15)
-    np.testing.assert_allclose(survey.angle_deg[8:], 0, atol=0.1)
-    np.testing.assert_allclose(survey.velocity_error[8:], 0, atol=1e-3)
-    assert (survey.coverage[8:] == 1).all()
-    assert (survey.precision[8:] == 1).all()
+    np.testing.assert_allclose(survey.metrics["angle_deg"][8:], 0, atol=0.1)
+    np.testing.assert_allclose(survey.metrics["velocity_error"][8:], 0, atol=1e-3)
+    assert (survey.metrics["coverage"][8:] == 1).all()
+    assert (survey.metrics["precision"][8:] == 1).all()
 
 
 @pytest.mark.parametrize("parameters", [Parameters(), Parameters(n=5, gamma=0.6)])
@@ -46,17 +51,17 @@ def test_no_flow_leaves_gaps_and_no_coverage():
     survey = filled(fake_opened(), Parameters(delta=0.5))
     assert (survey.moving[8:] == 0).all()
     assert np.isnan(survey.speed).all()
-    assert np.isnan(survey.angle_deg).all()
-    assert np.isnan(survey.precision).all()
-    assert (survey.coverage[8:] == 0).all()
+    assert np.isnan(survey.metrics["angle_deg"]).all()
+    assert np.isnan(survey.metrics["precision"]).all()
+    assert (survey.metrics["coverage"][8:] == 0).all()
 
 
 def test_pairs_that_do_not_count_have_no_errors_but_a_flow():
     fake = fake_recording()
     fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
     survey = filled(fake_opened(fake), Parameters())
-    assert np.isnan(survey.angle_deg[:28]).all()
-    assert np.isfinite(survey.angle_deg[28:]).all()
+    assert np.isnan(survey.metrics["angle_deg"][:28]).all()
+    assert np.isfinite(survey.metrics["angle_deg"][28:]).all()
     assert np.isfinite(survey.speed[8:]).all()
     assert survey.summary().pairs == FRAMES - 28
 
@@ -80,7 +85,7 @@ def test_pairs_that_do_not_count_can_be_left_out():
     asked = []
     clouds = fake.cloud
     fake.cloud = lambda k, far: asked.append(k) or clouds(k, far)
-    metrics = evaluate(fake, Parameters(), with_resting=False)
+    metrics = evaluate_all(fake, [Ask(Parameters(), resting=False)])[0].metrics
     assert sorted(asked) == [*range(30, 32), *range(38, 40)]
     whole = evaluate(fake, Parameters())
     assert metrics is not None
@@ -123,7 +128,7 @@ def test_without_truth_there_is_a_flow_alone():
     survey = filled(fake_opened(fake), Parameters())
     assert (survey.moving[8:] == 100).all()
     assert np.isnan(survey.true_speed).all()
-    assert np.isnan(survey.coverage).all()
+    assert np.isnan(survey.metrics["coverage"]).all()
     assert survey.summary().pairs == 0
 
 

@@ -4,7 +4,7 @@ import time
 import numpy as np
 import pytest
 
-import app.analysis.estimates
+import app.analysis.pair_estimator
 from app.analysis.estimates import Estimates
 from app.analysis.survey import Survey
 from app.analysis.surveys import Surveys
@@ -32,13 +32,13 @@ class Listener:
 def runs(monkeypatch):
     """The parameters of every run of the estimator."""
     found = []
-    real = app.analysis.estimates.estimate_pair
+    real = app.analysis.pair_estimator.estimate
 
     def run(pair, parameters):
         found.append(parameters)
         return real(pair, parameters)
 
-    monkeypatch.setattr(app.analysis.estimates, "estimate_pair", run)
+    monkeypatch.setattr(app.analysis.pair_estimator, "estimate", run)
     return found
 
 

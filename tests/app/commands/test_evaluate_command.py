@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.analysis.evaluation import COLUMNS
 from app.command_line import main
+from estimator import METRIC_INFO
 from tests.conftest import REPOSITORY
 from tests.estimator.judge import judge
 from tests.recordings.foreign import ForeignFile, image
@@ -120,7 +120,7 @@ def test_columns_stand_below_their_titles_whatever_a_recording_is_called(
     ]
     ends = [[m.end() for m in re.finditer(r"\S+", line)][1:] for line in (titles, first, second)]
     assert ends[0] == ends[1] == ends[2]
-    assert len(ends[0]) == len(COLUMNS)
+    assert len(ends[0]) == len(METRIC_INFO)
     assert any("velocity" in line for line in above)
     assert max(map(len, above)) <= len(titles) < 140
 

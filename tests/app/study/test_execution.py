@@ -107,7 +107,7 @@ def test_an_unforeseen_error_is_a_failure_of_that_recording(monkeypatch: pytest.
     def explode(*_: object, **__: object) -> None:
         raise ZeroDivisionError("oh")
 
-    monkeypatch.setattr("app.study.work.evaluate", explode)
+    monkeypatch.setattr("app.study.work.evaluate_all", explode)
     (outcome,) = outcomes([replace(WORKS[0], asks=ASKS[:1])], 1)
     assert outcome.failure == "towards_0.3_1: ZeroDivisionError: oh"
 

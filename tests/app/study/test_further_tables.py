@@ -3,7 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from app.analysis.evaluation import COLUMNS
 from app.study.further_tables import (
     ablation_table,
     metrics_table,
@@ -13,6 +12,7 @@ from app.study.further_tables import (
 )
 from app.study.paper_tables import paper_tables
 from app.study.work import Recorded
+from estimator import METRIC_INFO
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 from tests.app.study.made import PLAN, good, made
 
@@ -45,7 +45,7 @@ def test_metrics_are_all_that_evaluate_knows_and_sums_where_they_count():
     rows = [made(trial=trial, metrics=good(6.0, 0.03)) for trial in (1, 2)]
     table = metrics_table(replace(PLAN, methods=("paper",)), rows)
     (line,) = table.rows
-    assert set(line) == {"experiment", "speed", *COLUMNS} - {"angle_deg", "velocity_error"}
+    assert set(line) == {"experiment", "speed", *METRIC_INFO} - {"angle_deg", "velocity_error"}
     assert (line["pairs"], line["points_with_flow"]) == (14, 200)
     assert line["epe3d"] == pytest.approx(0.01)
     assert line["dynamic_iou"] is None
