@@ -1,4 +1,4 @@
-"""Where a recording of ours says where it comes from: a metadata record of the file."""
+"""Provenance of the recordings that we write: a metadata record of the file."""
 
 from dataclasses import MISSING, asdict, fields
 
