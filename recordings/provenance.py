@@ -11,7 +11,7 @@ _UNSAID = ("imperfections", "rig")
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
-    """Where a file comes from, by its metadata; None for files that we did not write.
+    """The provenance of a file by its metadata; None for files that we did not write.
 
     Raises:
         RecordingError: the record is not as we write it.
