@@ -14,7 +14,7 @@ NO_STATUS = 255
 
 @dataclass(frozen=True)
 class Cloud:
-    """What the sensors saw at one frame; its arrays are read-only.
+    """The points that the sensors saw at one frame, and their rays; its arrays are read-only.
 
     R and C are the most rows and columns that any sensor of the recording has. A sensor with fewer
     lies in the first of them; beyond its own grid its directions are NaN. A zone with a direction

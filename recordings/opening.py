@@ -117,7 +117,7 @@ def _open(
         rig.check_links(robot.links, robot.name)
     by_rig: list[Sensor | None] = [in_rig for _, _, in_rig in found]
     if rig is None and robot is not None and set(load_robot().links) <= set(robot.links):
-        by_rig = rig_sensors(topics, load_rig())
+        by_rig = rig_sensors(topics, own_rig or load_rig())
 
     frames = [topic.frame for topic, _, _ in found]
     fixed = _fixed_frame(fixed_frame, file, tree, frames, robot)

@@ -1,6 +1,6 @@
-"""Where a recording of ours says where it comes from: a metadata record of the file."""
+"""Provenance of the recordings that we write: a metadata record of the file."""
 
-from dataclasses import asdict, fields
+from dataclasses import MISSING, asdict, fields
 
 from recordings.errors import RecordingError
 from recordings.frame import Provenance
@@ -11,7 +11,7 @@ _UNSAID = ("imperfections", "rig")
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
-    """Where a file comes from, by its metadata; None for files that we did not write.
+    """The provenance of a file by its metadata; None for files that we did not write.
 
     Raises:
         RecordingError: the record is not as we write it.
@@ -32,7 +32,7 @@ def provenance_of(file: McapFile) -> Provenance | None:
             rig=record.get("rig", ""),
         )
     except (KeyError, ValueError) as error:
-        names = ", ".join(f.name for f in fields(Provenance))
+        names = ", ".join(f.name for f in fields(Provenance) if f.default is MISSING)
         raise RecordingError(
             f"{file.path}: its metadata record '{PROVENANCE_RECORD}' must hold {names}; "
             f"wrong or missing: {error}."

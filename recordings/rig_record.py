@@ -32,7 +32,7 @@ def rig_of(file: McapFile) -> tuple[Rig | None, list[str]]:
 
 
 def topic_part(sensor_name: str) -> str:
-    """What stands for a sensor in topics and frames."""
+    """The part of topics and frames that names a sensor."""
     return sensor_name.strip("/").replace(" ", "_")
 
 

@@ -1,4 +1,4 @@
-"""What a cloud tells of the rays that it came from, for grids of any size."""
+"""Rays, ranges and status that a cloud hands out, for grids of any size."""
 
 from dataclasses import replace
 from pathlib import Path

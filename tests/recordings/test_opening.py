@@ -229,6 +229,24 @@ def test_a_file_without_sensors_says_what_it_holds(shared_data: Path):
         open_recording(shared_data / "bags" / "nav2_turtlebot.mcap")
 
 
+@pytest.mark.parametrize(
+    ("name", "grids"),
+    [
+        ("d02_image_4x4_skhbk", [(4, 4)] * 4),
+        ("d13_mixed_4x4_and_8x8", [(8, 8), (8, 8), (4, 4), (4, 4)]),
+    ],
+)
+def test_sensors_of_fewer_zones_open_fully(
+    shared_data: Path, name: str, grids: list[tuple[int, int]]
+):
+    with open_recording(shared_data / "cases" / f"{name}.mcap") as recording:
+        assert len(recording) == 40
+        assert recording.warnings == ()
+        assert [sensor.grid for sensor in recording.sensors] == grids
+        zones = sum(rows * columns for rows, columns in grids)
+        assert all(len(recording.cloud(k).points) == zones for k in range(40))
+
+
 @pytest.mark.parametrize("name", ["approach_a0", "approach_a1", "approach_a2", "approach_a3"])
 def test_real_flights_open_and_their_panel_stands_still_in_the_world(shared_data: Path, name: str):
     path = shared_data / "matrix_tof_flights" / f"{name}.mcap"
