@@ -23,10 +23,16 @@ def grid(centre, spacing=0.02, side=10) -> Any:
 class FakeRecording:
     """A patch moves along y at 0.15 m/s among four that rest; one sensor, or a rig on a robot."""
 
-    def __init__(self, robot: Robot | None = None, rig: Rig | None = None, name: str = "fake"):
+    def __init__(
+        self,
+        robot: Robot | None = None,
+        rig: Rig | None = None,
+        name: str = "fake",
+        frames: int = FRAMES,
+    ):
         self.robot, self._rig, self.name = robot, rig, name
         self.path = Path(f"/nowhere/{name}.mcap")
-        self.stamps = 100 + PERIOD * np.arange(FRAMES)
+        self.stamps = 100 + PERIOD * np.arange(frames)
         self.provenance = None
         self.simulated = False
         self.truth_frame = None
