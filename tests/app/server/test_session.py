@@ -151,7 +151,7 @@ def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
 def test_only_what_is_listed_is_opened(session, client, folder):
     (folder / "later.mcap").touch()
     for label in ("/etc/passwd", "../a", "later"):
-        session._mailbox.post(OpenRecording(label))
+        session._queue.post(OpenRecording(label))
         client.change("Frame", 20 + len(label))
         until(lambda label=label: f"Frame {20 + len(label)} of" in client.text())
     assert [e.label for e in session._shared.library._shared] == ["a"]
