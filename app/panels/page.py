@@ -27,6 +27,7 @@ from app.session.snapshot import Snapshot, Status
 TITLE = "Tofscope"
 
 _PANELS = (
+    RecordingsPanel,
     PlaybackPanel,
     StatusPanel,
     ParametersPanel,
@@ -40,7 +41,7 @@ _PANELS = (
     LinkPanel,
     PlotsPanel,
 )
-"""All panels below the list of recordings, from top to bottom."""
+"""All panels, from top to bottom."""
 
 
 class Page:
@@ -53,26 +54,30 @@ class Page:
         set_up_fields(context.client)
         set_up_scene_edge(context.client)
         self._delivery = Delivery(context.client)
-        self._recordings = RecordingsPanel(context)
-        self._panels: list[Panel] = [self._recordings, *(panel(context) for panel in _PANELS)]
+        self._panels: list[Panel] = [panel(context) for panel in _PANELS]
 
-    def show(self, status: Snapshot | Status) -> None:
-        """Show the session's state, and hand its messages to the browser."""
+    def announce(self, status: Status) -> None:
+        """Show what is shown at once, and hand messages to the browser."""
         try:
-            self._show(status)
+            for panel in self._panels:
+                panel.announce(status)
         finally:
             # A message comes after the state that it tells of.
-            self._delivery.deliver(status.outbox)
-            self._delivery.show_tasks(status.tasks)
+            self._deliver(status)
 
-    def _show(self, status: Snapshot | Status) -> None:
-        if not isinstance(status, Snapshot):
-            self._recordings.announce(status)
-            return
-        if status.opened is not self._opened:
-            self._open(status.opened)
-        for panel in self._panels:
-            panel.show(status)
+    def show(self, snapshot: Snapshot) -> None:
+        """Show what was drawn, and hand messages to the browser."""
+        try:
+            if snapshot.opened is not self._opened:
+                self._open(snapshot.opened)
+            for panel in self._panels:
+                panel.show(snapshot)
+        finally:
+            self._deliver(snapshot)
+
+    def _deliver(self, status: Status) -> None:
+        self._delivery.deliver(status.outbox)
+        self._delivery.show_tasks(status.tasks)
 
     def _open(self, opened: Opened) -> None:
         self._opened = opened

@@ -8,7 +8,7 @@ import viser
 from app.analysis.library import Entry, Opened
 from app.scene.settings import ViewSettings
 from app.session.command import Command
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Snapshot, Status
 from estimator import Parameters
 
 
@@ -43,5 +43,8 @@ class Panel:
     def open(self, opened: Opened) -> None:
         """Prepare for a recording that was opened, before anything of it is shown."""
 
+    def announce(self, status: Status) -> None:
+        """Show what needs not wait until a recording is opened or a frame is estimated."""
+
     def show(self, snapshot: Snapshot) -> None:
-        """Show the session's state; called whenever that may have changed."""
+        """Show the session's state after drawing; called whenever it may have changed."""

@@ -12,7 +12,7 @@ from app.browser.controls import show_value
 from app.panels.panel import Panel, PanelContext
 from app.session.command import Command
 from app.session.commands import ChangeParameters, ResetParameters
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Snapshot, Status
 from app.session.tuning import Refusal
 from app.session.workbench import Workbench
 from estimator import PARAMETER_INFO, Parameters, method_names
@@ -95,25 +95,27 @@ class ParametersPanel(Panel):
         _add_commands(gui, post)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show values that others have set, and say what is refused.
+        """Say whose parameters these are, where two sets are compared."""
+        compared = snapshot.comparison
+        self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
+
+    def announce(self, status: Status) -> None:
+        """Show values that something else has set, and say what is refused.
 
         Other controls are not set: a person may be moving them. A refused value stays in its
         control, so that a person can go on typing, until it is taken, put back or replaced.
         """
-        compared = snapshot.comparison
-        self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
         for name in self._sliders:
             # More than a slider offers may be typed, or come from a file.
-            value, control = getattr(snapshot.parameters, name), self._controls[name]
-            control.max = max(control.max, value)
-        refused = {name for name, refusal in snapshot.refusals.items() if not refusal.put_back}
-        anew = snapshot.parameters_revision != self._revision
-        over = self._controls.keys() if anew else self._refused - refused
-        for name in over - snapshot.editing:
-            value = getattr(snapshot.parameters, name)
+            control = self._controls[name]
+            control.max = max(control.max, getattr(status.parameters, name))
+        refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
+        anew = status.parameters_revision != self._revision
+        for name in self._controls if anew else self._refused - refused:
+            value = getattr(status.parameters, name)
             show_value(self._controls[name], _UNSET if value is None else value)
-        self._refused, self._revision = refused, snapshot.parameters_revision
-        self._say(snapshot.refusals)
+        self._refused, self._revision = refused, status.parameters_revision
+        self._say(status.refusals)
 
     def _say(self, refusals: Mapping[str, Refusal]) -> None:
         put_back = {name for name, refusal in refusals.items() if refusal.put_back}

@@ -14,7 +14,7 @@ from app.panels.panel import Panel, PanelContext
 from app.session.command import LatestWins
 from app.session.outbox import Download, Notice
 from app.session.presets import Presets, PresetUse, preset_folder
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Status
 from app.session.workbench import Workbench
 from estimator import Parameters
 
@@ -137,9 +137,9 @@ class PresetsPanel(Panel):
             file = self._upload.value
             post(OpenParameters(file.name, file.content))
 
-    def show(self, snapshot: Snapshot) -> None:
+    def announce(self, status: Status) -> None:
         """List what is there now: other sessions save and delete, too."""
-        use, chosen = snapshot.preset_use, self._list.value
+        use, chosen = status.preset_use, self._list.value
         used, self._use = use is not self._use, use
         if used and use is not None and use.done:
             if use.action == "load":

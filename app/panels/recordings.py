@@ -28,16 +28,16 @@ class RecordingsPanel(Panel):
                 post(OpenRecording(self._list.value))
 
     def announce(self, status: Status) -> None:
-        """Say what is being opened, which may take a while, or that nothing is open."""
-        if status.opening is None:
-            self._about.content = _line("No recording is open.")
+        """Say what is being opened, which may take a while, or what is open."""
+        if status.opening is not None:
+            said = [f"Opening {status.opening} …"]
         else:
-            self._about.content = _line(f"Opening {escape(status.opening)} …")
+            said = describe(status.opened) if status.opened else ["No recording is open."]
+        self._about.content = "".join(_line(escape(text)) for text in said)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Choose and describe what is open, also after a recording that could not be opened."""
+        """Choose what is open, also after a recording that could not be opened."""
         show_value(self._list, snapshot.opened.entry.label)
-        self._about.content = "".join(_line(escape(text)) for text in describe(snapshot.opened))
 
 
 def describe(opened: Opened) -> list[str]:

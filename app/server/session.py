@@ -20,7 +20,6 @@ from app.panels.panel import PanelContext
 from app.scene.settings import ViewSettings
 from app.session.command import Command
 from app.session.commands import (
-    ChangeParameters,
     Move,
     OpenFirst,
     OpenRecording,
@@ -154,7 +153,8 @@ class Session:
                 self._try(lambda command=command: self._apply(command, workbench, page))
                 for command in commands
             ]
-            fine.append(self._try(lambda: self._show(workbench, page)))
+            fine.append(self._try(lambda: page.announce(workbench.status())))
+            fine.append(self._try(lambda: self._draw(workbench, page)))
             if all(fine):
                 self._said = ""
 
@@ -162,23 +162,19 @@ class Session:
         command.apply(workbench)
         # What follows a command in the queue is meant for the recording that it has opened.
         while workbench.opening.label is not None:
-            page.show(workbench.status())
+            page.announce(workbench.status())
             workbench.open_next()
 
-    def _show(self, workbench: Workbench, page: Page) -> None:
-        if self._queue.pending(OpenRecording) is not None:
+    def _draw(self, workbench: Workbench, page: Page) -> None:
+        if self._queue.has(OpenRecording):
             return  # nothing is computed for a recording that is about to be left
         try:
             workbench.draw()
         finally:
             # Where a frame cannot be drawn, its number is shown all the more.
-            change = self._queue.pending(ChangeParameters)
-            page.show(
-                workbench.snapshot(
-                    seeking=self._queue.pending(Move) is not None,
-                    editing=frozenset(change.values) if change else frozenset(),
-                )
-            )
+            snapshot = workbench.snapshot(seeking=self._queue.has(Move))
+            if snapshot is not None:
+                page.show(snapshot)
 
     def _try(self, action: Callable[[], None]) -> bool:
         """Do something; what goes wrong is told to the person, and the session goes on."""

@@ -1,11 +1,8 @@
 """Queue of a session's commands: callbacks post, one thread takes."""
 
 import threading
-from typing import TypeVar, cast
 
 from app.session.command import Command
-
-C = TypeVar("C", bound=Command)
 
 
 class CommandQueue:
@@ -27,10 +24,10 @@ class CommandQueue:
             self._pending[kind] = command if earlier is None else command.merged_with(earlier)
             self._changed.notify()
 
-    def pending(self, kind: type[C]) -> C | None:
-        """The pending command of this kind, None where there is none."""
+    def has(self, kind: type[Command]) -> bool:
+        """Whether a command of this kind is pending."""
         with self._changed:
-            return cast("C | None", self._pending.get(kind))
+            return kind in self._pending
 
     def take(self, timeout: float | None = None) -> list[Command] | None:
         """Take all commands, in the order of their last post.

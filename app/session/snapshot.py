@@ -1,4 +1,4 @@
-"""Snapshot of a session: all that its page shows, immutable."""
+"""Snapshot of a session: all that its page shows, immutable, in two steps."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -33,31 +33,37 @@ class Sought:
 
 @dataclass(frozen=True, kw_only=True)
 class Status:
-    """State of a session that the page shows also while no recording is open.
+    """State that the page shows at once, before anything is opened or estimated.
 
     Attributes:
         opening: label of the recording that is being opened, None where none is.
+        opened: the recording, None while none is open.
+        parameters: of the estimate.
+        parameters_revision: grows whenever parameters were set by something else than their own
+            controls, which are then to show all of them anew.
+        refusals: {parameter: entry that is not taken}, the last one at the end.
+        preset_use: the last use of a preset, None where none was used.
         tasks: that run in the background.
         outbox: messages to hand to the browser, exactly once.
     """
 
     opening: str | None
+    opened: Opened | None
+    parameters: Parameters
+    parameters_revision: int
+    refusals: Mapping[str, Refusal]
+    preset_use: PresetUse | None
     tasks: tuple[TaskState, ...]
     outbox: tuple[Message, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Snapshot(Status):
-    """State of a session that shows a recording, at one moment.
+    """State of a session that shows a recording, once its frame was drawn.
 
     Attributes:
         opened: the recording.
         frame: k.
-        parameters: of the estimate.
-        parameters_revision: grows whenever parameters were set by something else than their own
-            controls, which are then to show all of them anew.
-        refusals: {parameter: entry that is not taken}, the last one at the end.
-        editing: parameters whose controls a person is using, and which are left to them.
         comparison: with other parameters, None where there is none.
         settings: of the drawing.
         legend: meaning of its colours.
@@ -72,15 +78,10 @@ class Snapshot(Status):
         sought: the last time that a person typed, None where none was.
         survey: with these parameters, as far as it is filled; None before its first numbers.
         survey_revision: grows whenever the survey has come further: it is filled in place.
-        preset_use: the last use of a preset, None where none was used.
     """
 
     opened: Opened
     frame: int
-    parameters: Parameters
-    parameters_revision: int
-    refusals: Mapping[str, Refusal]
-    editing: frozenset[str]
     comparison: Comparison | None
     settings: ViewSettings
     legend: Legend
@@ -95,4 +96,3 @@ class Snapshot(Status):
     sought: Sought | None
     survey: Survey | None
     survey_revision: int
-    preset_use: PresetUse | None

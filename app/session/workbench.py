@@ -57,7 +57,7 @@ class Workbench:
         photographer: takes pictures of the scene.
         pair: that is drawn, None where none is.
         preset_use: the last use of a preset, None where none was used.
-        outbox: messages for the browser, taken by the next snapshot.
+        outbox: messages for the browser, taken by the next status or snapshot.
     """
 
     def __init__(
@@ -186,30 +186,23 @@ class Workbench:
             self.toggle_play()
 
     def status(self) -> Status:
-        """What the page shows without a recording; the outbox is empty afterwards."""
-        return Status(
-            opening=self.opening.label, tasks=self.tasks.states, outbox=self._take_outbox()
-        )
+        """State that the page shows before anything is opened or drawn; it takes the outbox."""
+        return Status(opened=self.opened, **self._status())
 
-    def snapshot(self, *, seeking: bool, editing: frozenset[str]) -> Snapshot | Status:
-        """What the page shows, a status where no recording is open; the outbox is empty afterwards.
+    def snapshot(self, *, seeking: bool) -> Snapshot | None:
+        """State that the page shows after `draw`; it takes the outbox.
 
         Args:
             seeking: whether a person is moving the frame slider.
-            editing: parameters whose controls a person is using.
+
+        Returns:
+            The snapshot, None where no recording is open.
         """
         if self.opened is None:
-            return self.status()
+            return None
         return Snapshot(
-            opening=self.opening.label,
-            tasks=self.tasks.states,
-            outbox=self._take_outbox(),
             opened=self.opened,
             frame=self.frame,
-            parameters=self.tuning.parameters,
-            parameters_revision=self.tuning.revision,
-            refusals=dict(self.tuning.refusals),
-            editing=editing,
             comparison=self.tuning.comparison,
             settings=self.settings,
             legend=self.scene.legend,
@@ -224,7 +217,7 @@ class Workbench:
             sought=self.sought,
             survey=self.survey.survey,
             survey_revision=self.survey.revision,
-            preset_use=self.preset_use,
+            **self._status(),
         )
 
     def close(self) -> None:
@@ -254,9 +247,17 @@ class Workbench:
         self.survey.leave()
         self.library.release(opened.entry)
 
-    def _take_outbox(self) -> tuple[Message, ...]:
-        taken, self.outbox = tuple(self.outbox), []
-        return taken
+    def _status(self) -> dict[str, Any]:
+        outbox, self.outbox = tuple(self.outbox), []
+        return {
+            "opening": self.opening.label,
+            "parameters": self.tuning.parameters,
+            "parameters_revision": self.tuning.revision,
+            "refusals": dict(self.tuning.refusals),
+            "preset_use": self.preset_use,
+            "tasks": self.tasks.states,
+            "outbox": outbox,
+        }
 
     def _draw_pairs(
         self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None

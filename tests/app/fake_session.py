@@ -9,13 +9,28 @@ from app.panels.panel import PanelContext
 from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
 from app.session.clock import Playback
-from app.session.snapshot import Snapshot
+from app.session.snapshot import Snapshot, Status
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 
 
 def context(client: Any, post=lambda command: None) -> PanelContext:
     return PanelContext(client, [fake_opened().entry], Parameters(), ViewSettings(), post)
+
+
+def status(**changes: Any) -> Status:
+    """Status of a session that has nothing open, but for what is named."""
+    fields: dict[str, Any] = {
+        "opening": None,
+        "opened": None,
+        "parameters": Parameters(),
+        "parameters_revision": 0,
+        "refusals": {},
+        "preset_use": None,
+        "tasks": (),
+        "outbox": (),
+    }
+    return Status(**(fields | changes))
 
 
 def snapshot(**changes: Any) -> Snapshot:
@@ -26,15 +41,10 @@ def snapshot(**changes: Any) -> Snapshot:
     opened = changes.get("opened") or fake_opened()
     frame, parameters = changes.get("frame", 20), changes.get("parameters") or Parameters()
     fields: dict[str, Any] = {
-        "opening": None,
-        "tasks": (),
-        "outbox": (),
+        **vars(status()),
         "opened": opened,
         "frame": frame,
         "parameters": parameters,
-        "parameters_revision": 0,
-        "refusals": {},
-        "editing": frozenset(),
         "comparison": None,
         "settings": ViewSettings(),
         "legend": Legend(),
@@ -47,7 +57,6 @@ def snapshot(**changes: Any) -> Snapshot:
         "sought": None,
         "survey": None,
         "survey_revision": 0,
-        "preset_use": None,
     }
     if "pair" not in changes:
         fields["pair"] = Estimates().estimated(opened, frame, parameters)

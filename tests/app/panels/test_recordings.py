@@ -1,10 +1,9 @@
 from dataclasses import replace
 
 from app.panels.recordings import RecordingsPanel, describe
-from app.session.snapshot import Status
 from recordings import Provenance
 from tests.app.fake_recordings import fake_opened, fake_recording
-from tests.app.fake_session import context, snapshot
+from tests.app.fake_session import context, status
 
 
 def test_a_measured_recording_is_described_by_its_size():
@@ -24,15 +23,16 @@ def test_a_simulated_recording_says_so_first():
 def test_what_is_being_opened_is_said_and_what_stays_open_after_a_bad_one(client):
     panel = RecordingsPanel(context(client))
     assert "Opening …" in client.text()
-    panel.announce(Status(opening="a<b", tasks=(), outbox=()))
+    panel.announce(status(opening="a<b"))
     assert "Opening a&lt;b …" in client.text()
-    panel.show(snapshot())
+    panel.announce(status(opened=fake_opened()))
     assert "Opening" not in client.text()
-    panel.announce(Status(opening="bad", tasks=(), outbox=()))
+    panel.announce(status(opening="bad", opened=fake_opened()))
     assert "Opening bad …" in client.text()
-    panel.show(snapshot())
+    panel.announce(status(opened=fake_opened()))
     assert "1 sensor, 40 frames" in client.text()
-    panel.announce(Status(opening=None, tasks=(), outbox=()))
+    panel.announce(status(opening="bad"))
+    panel.announce(status())
     assert "No recording is open." in client.text()
 
 
