@@ -15,7 +15,7 @@ _SECONDS = 1.5  # nobody likes to wait
 _ENOUGH = 20  # moving points that tell something
 
 
-def telling_frame(opened: Opened, parameters: Parameters, estimates: Estimates) -> int:
+def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Estimates) -> int:
     """A frame with flow, as near to the middle of the motion as there is one among a few.
 
     Where none of them has flow, the one in which most is seen.

@@ -1,4 +1,4 @@
-"""What one session sees of the timeline."""
+"""Timeline of what one session shows, as far as it is known by now."""
 
 import time
 
@@ -12,8 +12,8 @@ from estimator import Parameters
 _AGE = 1.0  # seconds after which it is looked through again
 
 
-class Outlook:
-    """A look at the timeline, again once in a while: estimates come one by one.
+class LiveTimeline:
+    """Timeline that is looked through again once in a while: estimates come one by one.
 
     Args:
         estimates: that are known, of a bounded number of frames.
@@ -26,7 +26,7 @@ class Outlook:
         self._survey: Survey | None = None
         self._last: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
 
-    def timeline(self, opened: Opened, parameters: Parameters) -> Timeline:
+    def of(self, opened: Opened, parameters: Parameters) -> Timeline:
         """The recording at a glance; where there is no truth, what is estimated says it."""
         wanted, now = (opened, parameters), time.monotonic()
         fresh = self._last is None or self._last[0] != wanted

@@ -96,7 +96,7 @@ class Surveys:
                     if request.wanted and self._advance(request):
                         self._finish(who, request)
                 except Exception:
-                    _LOG.debug("A survey could not go on.", exc_info=True)
+                    _LOG.exception("A survey could not go on.")
                     self._finish(who, request)
 
     def _finish(self, who: Hashable, request: _Request) -> None:

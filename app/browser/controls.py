@@ -5,6 +5,8 @@ from typing import Any
 
 import viser
 
+from app.browser.internals import call_in_event_loop
+
 _PATIENCE = 2.0  # seconds
 
 
@@ -26,5 +28,5 @@ def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
         control.value = value
         done.set()
 
-    control._impl.gui_api._event_loop.call_soon_threadsafe(assign)
+    call_in_event_loop(control, assign)
     done.wait(_PATIENCE)

@@ -1,4 +1,4 @@
-"""What is written into the page's fields where no person types it.
+"""Values that are written into the page's fields where no person types them.
 
 HTML of viser cannot be clicked, and its plots neither. An element that carries the attributes of
 `sets` or `sets_along` hands a click on to a number field, a slider or a dropdown of the page, as
@@ -8,7 +8,14 @@ focus once a person is done with it.
 
 import viser
 
-from app.browser.script import run
+from app.browser.internals import (
+    DROPDOWN,
+    DROPDOWN_OPTION,
+    FOLDER_ARROW,
+    NUMBER_INPUT,
+    element_id,
+    run_script,
+)
 
 _SCRIPT = """
 if (!window.tofscopeSet) {
@@ -19,7 +26,7 @@ if (!window.tofscopeSet) {
   };
   const choose = (field, value, tries) => {  // its options are there a moment after it is opened
     const list = document.getElementById(field.getAttribute('aria-controls'));
-    const options = list ? [...list.querySelectorAll('[role=option]')] : [];
+    const options = list ? [...list.querySelectorAll('%(option)s')] : [];
     const wanted = options.find(option => option.textContent === value);
     if (wanted) wanted.click();
     else if (tries > 0) setTimeout(() => choose(field, value, tries - 1), 30);
@@ -27,7 +34,7 @@ if (!window.tofscopeSet) {
   window.tofscopeSet = (id, value) => {
     const field = document.getElementById(id);
     if (!field) return;
-    if (field.getAttribute('aria-haspopup') === 'listbox') {
+    if (field.matches('%(dropdown)s')) {
       field.click();
       choose(field, value, 20);
       return;
@@ -36,7 +43,7 @@ if (!window.tofscopeSet) {
     type(field.matches(number) ? field : field.parentElement.querySelector(number), value);
   };
   window.tofscopeUnfold = name => {
-    for (const arrow of document.querySelectorAll('svg.tabler-icon-chevron-down')) {
+    for (const arrow of document.querySelectorAll('%(arrow)s')) {
       const label = arrow.parentElement;
       if (label.textContent !== name) continue;
       label.click();
@@ -58,12 +65,12 @@ if (!window.tofscopeSet) {
   // A field that keeps the focus keeps the keys, which people mean for playback.
   const leave = () => setTimeout(() => document.activeElement?.blur(), 0);
   document.addEventListener('click', event => {
-    if (event.target.closest('[role=option]')) leave();
+    if (event.target.closest('%(option)s')) leave();
   });
   document.addEventListener('keydown', event => {
     if (event.key === 'Enter' && event.target.matches('input')) leave();
   });
-  const number = target => target.matches('input.mantine-NumberInput-input');
+  const number = target => target.matches('%(number)s');
   document.addEventListener('focusin', ({target}) => {
     if (number(target)) target.dataset.before = target.value;
   });
@@ -72,16 +79,22 @@ if (!window.tofscopeSet) {
   });
 }
 """
+_NAMES = {
+    "arrow": FOLDER_ARROW,
+    "dropdown": DROPDOWN,
+    "number": NUMBER_INPUT,
+    "option": DROPDOWN_OPTION,
+}
 
 
 def set_up_fields(client: viser.ClientHandle) -> None:
-    """Let the page do so from now on."""
-    run(client, _SCRIPT)
+    """Let elements of the page set its fields from now on."""
+    run_script(client, _SCRIPT % _NAMES)
 
 
 def unfold(client: viser.ClientHandle, folder: str) -> None:
     """Open a folder of the page by its name and bring it into view, where it is closed."""
-    run(client, f"window.tofscopeUnfold({folder!r})")
+    run_script(client, f"window.tofscopeUnfold({folder!r})")
 
 
 def sets(control: viser.GuiInputHandle, value: str) -> str:
@@ -91,9 +104,9 @@ def sets(control: viser.GuiInputHandle, value: str) -> str:
         control: a dropdown that has this option, or a number field.
         value: as the control shows it; without quotes.
     """
-    return f'data-sets="{control._impl.uuid}" data-value="{value}"'
+    return f'data-sets="{element_id(control)}" data-value="{value}"'
 
 
 def sets_along(control: viser.GuiInputHandle, end: int) -> str:
     """Attributes of an element along which a click sets a slider, whole numbers from 0 to `end`."""
-    return f'data-sets="{control._impl.uuid}" data-end="{end}"'
+    return f'data-sets="{element_id(control)}" data-end="{end}"'

@@ -1,29 +1,24 @@
-"""viser's server, quiet on the terminal, and refusing what other web pages send."""
+"""viser's server, quiet on the terminal, which refuses what other web pages send."""
 
 import contextlib
-import functools
-import http
 import io
 import ipaddress
 import logging
 import socket
 import threading
-from collections.abc import Callable, Iterator
 from typing import Any
 from urllib.parse import urlsplit
 
 import viser
-import websockets.asyncio.server as websocket_server
-from websockets.asyncio.server import ServerConnection
-from websockets.http11 import Request, Response
+from websockets.http11 import Request
 
-_Answer = Callable[[ServerConnection, Request], Response | None]
+from app.browser.internals import CONNECTION_LOGGER, guarding_requests
 
 _starting = threading.Lock()
 
 
 class GuardedServer(viser.ViserServer):
-    """A server that answers its own pages and programs, and no page of anybody else.
+    """Server that answers its own pages and programs, and no foreign page.
 
     Args:
         host: address to listen at.
@@ -32,14 +27,14 @@ class GuardedServer(viser.ViserServer):
     """
 
     def __init__(self, host: str, port: int, label: str | None = None) -> None:
-        # A connection that ends before it asked for anything, as browsers make them, is no error.
-        logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
-        with _starting, _quiet(), _refusing_foreign_pages(host):
+        logging.getLogger(CONNECTION_LOGGER).setLevel(logging.CRITICAL)
+        guard = guarding_requests(lambda request: _refusal(request, host))
+        with _starting, _quiet(), guard:
             super().__init__(host=host, port=port, label=label, verbose=False)
 
     @property
     def camera(self) -> viser.InitialCameraConfig:
-        """From where clients see the server's scene at first; with it, a scene can be drawn."""
+        """Camera that clients begin with; with it, a scene can be drawn on the server."""
         return self.initial_camera
 
     def stop(self) -> None:
@@ -82,29 +77,14 @@ def _is_address(name: str) -> bool:
     return True
 
 
-@contextlib.contextmanager
-def _refusing_foreign_pages(host: str) -> Iterator[None]:
-    """Give the server that viser starts meanwhile a guard, for which viser has no argument."""
-    serve = websocket_server.serve
-
-    @functools.wraps(serve)
-    def guarded(*arguments: Any, process_request: _Answer, **options: Any) -> Any:  # noqa: ANN401
-        def answer(connection: ServerConnection, request: Request) -> Response | None:
-            headers = request.headers
-            hosts = headers.get_all("Host")
-            addressed = hosts[0] if len(hosts) == 1 else None
-            if any(is_foreign(origin, addressed, host) for origin in headers.get_all("Origin")):
-                said = "This server answers the pages that it sent itself, and no others.\n"
-                return connection.respond(http.HTTPStatus.FORBIDDEN, said)
-            return process_request(connection, request)
-
-        return serve(*arguments, process_request=answer, **options)
-
-    setattr(websocket_server, "serve", guarded)  # noqa: B010 (a class is not assignable to)
-    try:
-        yield
-    finally:
-        setattr(websocket_server, "serve", serve)  # noqa: B010
+def _refusal(request: Request, host: str) -> str | None:
+    """Why a request is refused by the server at an address, None where it is answered."""
+    headers = request.headers
+    hosts = headers.get_all("Host")
+    addressed = hosts[0] if len(hosts) == 1 else None
+    if any(is_foreign(origin, addressed, host) for origin in headers.get_all("Origin")):
+        return "This server answers the pages that it sent itself, and no others.\n"
+    return None
 
 
 def _quiet() -> contextlib.AbstractContextManager[Any]:

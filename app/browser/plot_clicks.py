@@ -1,4 +1,4 @@
-"""What plots of viser lack: a line at the current time, and clicks that go to a time.
+"""Line at the current time in plots of viser, and clicks in them that go to a time.
 
 The line is a style sheet, so that a new frame costs a hundred bytes and no plot is drawn again.
 A click is written into a number field, by what `app.browser.fields` has set up.
@@ -6,18 +6,18 @@ A click is written into a number field, by what `app.browser.fields` has set up.
 
 import viser
 
-from app.browser.script import run
+from app.browser.internals import PLOT_AREA, PLOT_CANVAS, run_script
 
 _MARK = "tofscope-plots"  # class of the element whose later siblings are the plots
-_PLOT = f":has(> .{_MARK}) ~ * .u-over"
-_PALE = f":has(> .{_MARK}) ~ * .uplot canvas"
+_PLOT = f":has(> .{_MARK}) ~ * {PLOT_AREA}"
+_PALE = f":has(> .{_MARK}) ~ * {PLOT_CANVAS}"
 
 _SCRIPT = """
 window.tofscopePlots = {field: '%(field)s', start: %(start)r, end: %(end)r};
 if (!window.tofscopePlotsListen) {
   window.tofscopePlotsListen = true;
   document.addEventListener('click', event => {
-    const plot = event.target.closest('.u-over');
+    const plot = event.target.closest('%(area)s');
     if (!plot || !plot.matches('%(plot)s')) return;
     const {field, start, end} = window.tofscopePlots;
     const time = window.tofscopeAlong(event, plot, start, end);
@@ -33,10 +33,11 @@ def seek_by_clicks(client: viser.ClientHandle, field: str, start: float, end: fl
     Args:
         client: whose page.
         field: the field's id in the page.
-        start: what the left edge of the plots stands for.
-        end: what their right edge stands for.
+        start: value at the left edge of the plots.
+        end: value at their right edge.
     """
-    run(client, _SCRIPT % {"field": field, "start": start, "end": end, "plot": _PLOT})
+    names = {"area": PLOT_AREA, "plot": _PLOT}
+    run_script(client, _SCRIPT % {"field": field, "start": start, "end": end, **names})
 
 
 def cursor(share: float, *, pale: bool) -> str:

@@ -110,12 +110,12 @@ def run(options: argparse.Namespace) -> int:
 
 def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
     from app.analysis.estimates import Estimates
-    from app.analysis.first_frame import telling_frame
+    from app.analysis.first_frame import first_frame_with_flow
     from app.exports.picture import Framing, picture
 
     estimates, frame = Estimates(), options.frame
     if frame is None:
-        frame = telling_frame(opened, parameters, estimates)
+        frame = first_frame_with_flow(opened, parameters, estimates)
     _check_frame(opened, frame)
     width, height = options.size or (1600, 900)
     pair = estimates.estimated(opened, frame, parameters)

@@ -9,6 +9,7 @@ from app.analysis.comparison import Comparison
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.browser.guarded_server import GuardedServer
+from app.browser.internals import NO_FLASH, PAGE_TITLE
 from app.errors import InputError
 from app.exports.captions import caption
 from app.scene.camera import Camera
@@ -27,25 +28,6 @@ MOST_FRAMES = 3000
 _LEGEND_STYLE = """<style>
 [data-legend] { bottom: 54px !important; font-family: system-ui, sans-serif }
 </style>"""
-
-# Where it begins again or is set back, viser's player lights the scene in its own way until the
-# browser's next image. Messages that are taken at once leave no such image between.
-_NO_FLASH = """<script>
-const waiting = setInterval(() => {
-  const viewer = window.__viserMutable;
-  if (!viewer?.drainMessageQueue || !viewer.requestRender) return;
-  clearInterval(waiting);
-  const render = viewer.requestRender;
-  viewer.requestRender = () => {
-    if (viewer.messageQueue.length > 0) viewer.drainMessageQueue();
-    render();
-  };
-}, 20);
-</script>"""
-
-
-class ExportEndedError(Exception):
-    """Nobody waits for the file any more; a `progress` raises it."""
 
 
 def offline_page(
@@ -67,13 +49,12 @@ def offline_page(
         settings: of the drawing.
         stand: where the camera stands at first, or one of `VIEWS`.
         estimates: computes and remembers.
-        progress: is told how many frames are drawn.
+        progress: is told how many frames are drawn; what it raises ends the work.
         comparison: with other parameters, whose flow is drawn too where it says so.
 
     Raises:
         InputError: more frames than a page may have.
         RecordingError: the recording is broken at one of them.
-        ExportEndedError: from `progress`.
     """
     if len(frames) > MOST_FRAMES:
         raise InputError(
@@ -111,12 +92,12 @@ def offline_page(
     finally:
         server.stop()
     title = f"{recording.name} (simulated)" if recording.simulated else recording.name
-    page = page.replace("<title>Viser</title>", f"<title>{escape(title)}</title>", 1)
+    page = page.replace(PAGE_TITLE, f"<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")
     sides = comparison.drawn(parameters) if comparison else {}
     said = dict(caption(recording, parameters, None, sides))
     said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
-    added = _LEGEND_STYLE + html(legend) + _about(title, said, dark=settings.dark) + _NO_FLASH
+    added = _LEGEND_STYLE + html(legend) + _about(title, said, dark=settings.dark) + NO_FLASH
     return page[:end] + added + page[end:]
 
 

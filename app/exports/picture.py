@@ -16,7 +16,7 @@ from app.exports.captions import caption
 from app.exports.chromium import hidden_page
 from app.exports.pictures import finished, png, side_by_side
 from app.scene import theme
-from app.scene.photograph import photograph
+from app.scene.photograph import Photographer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from estimator import Parameters
@@ -80,7 +80,8 @@ def picture(
                 scene.change(settings)
                 scene.show(pair)
                 scene.place_camera(pair, framing.views[0], framing.width / framing.height)
-            taken = [_settled(client, scene, pair, view, framing) for view in framing.views]
+            photographer = Photographer(client, scene)
+            taken = [_settled(photographer, pair, view, framing) for view in framing.views]
             legend = scene.legend if framing.legend else None
     finally:
         server.stop()
@@ -93,14 +94,14 @@ def picture(
 
 
 def _settled(
-    client: viser.ClientHandle, scene: Scene, pair: Pair, view: str, framing: Framing
+    photographer: Photographer, pair: Pair, view: str, framing: Framing
 ) -> NDArray[np.uint8]:
     """The picture (H, W, 4), once it does not change any more."""
     end = time.monotonic() + _TIMEOUT
     before: NDArray[np.uint8] | None = None
     while time.monotonic() < end:
         try:
-            pixels = photograph(client, scene, pair, view, framing.width, framing.height)
+            pixels = photographer.take(pair, view, framing.width, framing.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
                 f"Chromium gave no picture of {framing.width} x {framing.height} ({error}); "

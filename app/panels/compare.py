@@ -1,7 +1,6 @@
-"""Two sets of parameters, or two methods, against each other: A and B."""
+"""Comparison of two sets of parameters, or two methods: A and B."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
 
 import viser
 
@@ -9,46 +8,41 @@ from app.analysis.comparison import A, B, Comparison
 from app.browser.controls import show_value
 from app.errors import InputError
 from app.panels.differences import changes, difference_table
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.panels.tables import framed
 from app.scene.colours import css
-from app.session.commands import LatestWins
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.session.command import LatestWins, Repeated
+from app.session.snapshot import Snapshot
+from app.session.workbench import Workbench
 
 
 @dataclass(frozen=True)
 class CopyToB(LatestWins):
     """Make B a copy of A, and edit it."""
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Copy it."""
-        before = workbench.comparison
+        tuning = workbench.tuning
+        before, parameters = tuning.comparison, tuning.parameters
         if before is None:
-            workbench.compare(Comparison(workbench.parameters, B), workbench.parameters)
+            tuning.compare(Comparison(parameters, B), parameters)
         else:
-            of_a, _ = before.in_order(workbench.parameters, before.other)
-            workbench.compare(replace(before, other=of_a, edited=B), of_a)
+            of_a, _ = before.in_order(parameters, before.other)
+            tuning.compare(replace(before, other=of_a, edited=B), of_a)
 
 
 @dataclass(frozen=True)
-class SwitchSide:
+class SwitchSide(Repeated):
     """Edit B instead of A, or the other way round, this many times; B is made where it is not."""
 
-    times: int = 1
-
-    def after(self, earlier: Self) -> Self:
-        """All the times."""
-        return type(self)(earlier.times + self.times)
-
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Edit the other one."""
-        before = workbench.comparison
+        tuning = workbench.tuning
+        before = tuning.comparison
         if before is None:
-            CopyToB().fulfil(workbench)
+            CopyToB().apply(workbench)
         elif self.times % 2:
-            workbench.compare(before.switched(workbench.parameters), before.other)
+            tuning.compare(before.switched(tuning.parameters), before.other)
 
 
 @dataclass(frozen=True)
@@ -57,41 +51,42 @@ class DrawBoth(LatestWins):
 
     both: bool
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Draw so."""
-        if workbench.comparison is not None:
-            workbench.comparison = replace(workbench.comparison, both=self.both)
+        if (before := workbench.tuning.comparison) is not None:
+            workbench.tuning.comparison = replace(before, both=self.both)
 
 
 @dataclass(frozen=True)
 class ToggleBoth(LatestWins):
     """Draw the flow of both where one is drawn, and the other way round."""
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Draw so, or say that there is no B."""
-        before = workbench.comparison
+        before = workbench.tuning.comparison
         if before is None:
             raise InputError("There is no B to draw; copy A to B first.")
-        workbench.comparison = replace(before, both=not before.both)
+        workbench.tuning.comparison = replace(before, both=not before.both)
 
 
 @dataclass(frozen=True)
 class RemoveB(LatestWins):
     """Go on with A alone."""
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Forget B."""
-        if before := workbench.comparison:
-            of_a, _ = before.in_order(workbench.parameters, before.other)
-            workbench.compare(None, of_a)
+        tuning = workbench.tuning
+        if (before := tuning.comparison) is not None:
+            of_a, _ = before.in_order(tuning.parameters, before.other)
+            tuning.compare(None, of_a)
 
 
 class ComparePanel(Panel):
     """Make B, switch between A and B, and read how they differ on the pair that is shown."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, post = desk.client.gui, desk.post
-        self._shown: Comparison | None = None
+    def __init__(self, context: PanelContext) -> None:
+        gui, post = context.client.gui, context.post
+        self._last: Comparison | None = None
         with gui.add_folder("Compare", expand_by_default=False):
             self._state = gui.add_html("")
             copy = gui.add_button(
@@ -151,10 +146,10 @@ class ComparePanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(RemoveB())
 
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Say what is edited, and how A and B differ."""
-        comparison, before = shown.comparison, self._shown
-        self._shown = comparison
+        comparison, before = snapshot.comparison, self._last
+        self._last = comparison
         self._switch.visible = self._both.visible = self._remove.visible = comparison is not None
         if comparison is None:
             self._state.content = framed(
@@ -167,17 +162,17 @@ class ComparePanel(Panel):
             # Otherwise it may have been switched a moment ago.
             show_value(self._both, comparison.both)
         self._switch.label = f"Switch to {other}"
-        colour = css(shown.settings.palette.second)
+        colour = css(snapshot.settings.palette.second)
         mark = f' <span style="color: {colour}">■</span> The flow of B.'
         legend = mark if comparison.both else ""
         self._state.content = framed(
             f"<b>{edited}</b> is shown, and what the parameters' controls change.{legend}"
         )
-        of_a, of_b = comparison.in_order(shown.parameters, comparison.other)
-        pairs = comparison.in_order(shown.pair, shown.other)
+        of_a, of_b = comparison.in_order(snapshot.parameters, comparison.other)
+        pairs = comparison.in_order(snapshot.pair, snapshot.other)
         missing = (
             ""
-            if shown.other or not shown.pair
+            if snapshot.other or not snapshot.pair
             else f"<div>{other} is not estimated here; switch to it or draw both.</div>"
         )
         self._table.content = framed(changes(of_a, of_b) + difference_table(*pairs) + missing)

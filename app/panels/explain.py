@@ -1,7 +1,6 @@
-"""Why: what became of each cluster, the picked one's story, how near the thresholds are."""
+"""Explanation of a pair: every cluster's outcome, the picked one's story, the thresholds."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import viser
 
@@ -11,14 +10,13 @@ from app.browser.controls import show_value
 from app.browser.fields import sets, unfold
 from app.panels.cluster_story import cluster_table, legend, story
 from app.panels.histograms import Histogram, upper_limit
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.panels.tables import framed
 from app.scene.palettes import Palette
-from app.session.commands import LatestWins
+from app.session.command import LatestWins
+from app.session.snapshot import Snapshot
+from app.session.workbench import Workbench
 from estimator import ClusterResult, Parameters
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
 
 _FOLDER = "Explain"
 _NONE: str = "none"
@@ -34,29 +32,30 @@ class PickCluster(LatestWins):
 
     index: int | None
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Pick it."""
         workbench.pick(self.index)
 
 
 @dataclass(frozen=True)
 class PickAt(LatestWins):
-    """Pick the cluster that is clicked on, and tell it; a click beside all of them picks none."""
+    """Pick the cluster that is clicked on; a click beside all of them picks none."""
 
     origin: Vector
     direction: Vector
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Pick it."""
-        if workbench.pick_at(self.origin, self.direction):
-            unfold(workbench.client, _FOLDER)
+        workbench.pick_at(self.origin, self.direction)
 
 
 class ExplainPanel(Panel):
     """Pick a cluster here or in the scene, and read what was decided about it."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, post = desk.client.gui, desk.post
+    def __init__(self, context: PanelContext) -> None:
+        gui, post = context.client.gui, context.post
+        self._client = context.client
+        self._picked_in_scene = 0
         self._pair: Pair | None = None
         self._told: tuple[int | None, Palette] | None = None
         with gui.add_folder(_FOLDER, expand_by_default=False):
@@ -77,23 +76,26 @@ class ExplainPanel(Panel):
                 post(PickCluster(None if chosen == _NONE else int(chosen.split()[0])))
 
         # Dragging turns the camera as ever: viser tells a click from a drag.
-        @desk.client.scene.on_click()
+        @context.client.scene.on_click()
         def _(event: viser.SceneClickEvent) -> None:
             post(PickAt(event.ray_origin, event.ray_direction))
 
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Tell the clusters of the pair, and the picked one's story."""
-        pair = shown.pair
+        if snapshot.picked_in_scene != self._picked_in_scene:
+            self._picked_in_scene = snapshot.picked_in_scene
+            unfold(self._client, _FOLDER)
+        pair = snapshot.pair
         if pair is None or pair.flow is None:
             self._pair = None
             self._choices({_NONE: None}, None)
             self._story.content = framed("There is no estimate of this frame to explain.")
             self._table.content = self._fitness.content = self._displacement.content = ""
             return
-        picked, palette = told = (shown.picked, shown.settings.palette)
+        picked, palette = told = (snapshot.picked, snapshot.settings.palette)
         if pair is not self._pair or told != self._told:
             self._pair, self._told = pair, told
-            self._explain(pair, picked, shown.parameters, palette)
+            self._explain(pair, picked, snapshot.parameters, palette)
 
     def _explain(
         self, pair: Pair, picked: int | None, parameters: Parameters, palette: Palette

@@ -2,9 +2,10 @@
 
 import json
 
-from app.browser.script import run
-from app.panels.panel import Desk, Panel, Shown
+from app.browser.internals import run_script
+from app.panels.panel import Panel, PanelContext
 from app.scene.legend_html import html
+from app.session.snapshot import Snapshot
 
 # It is no part of viser's panels, so that it stays where these are folded away.
 _SCRIPT = """
@@ -19,14 +20,14 @@ legend.innerHTML = %s;
 
 
 class LegendPanel(Panel):
-    """Says what the colours mean, in the corner of the scene."""
+    """Meaning of the colours, in the corner of the scene."""
 
-    def __init__(self, desk: Desk) -> None:
-        self._client, self._said = desk.client, ""
+    def __init__(self, context: PanelContext) -> None:
+        self._client, self._said = context.client, ""
 
-    def show(self, shown: Shown) -> None:
-        """Say it of what is drawn now."""
-        content = html(shown.legend) if shown.settings.legend else ""
+    def show(self, snapshot: Snapshot) -> None:
+        """Say what the colours mean that are drawn now."""
+        content = html(snapshot.legend) if snapshot.settings.legend else ""
         if content != self._said:
             self._said = content
-            run(self._client, _SCRIPT % json.dumps(content))
+            run_script(self._client, _SCRIPT % json.dumps(content))

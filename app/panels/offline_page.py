@@ -1,29 +1,25 @@
 """The whole recording as one HTML file, made while the session goes on."""
 
-import logging
-import threading
-import time
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
 
 import viser
 
 from app.analysis.estimates import Estimates
-from app.analysis.library import Entry, Library, Opened
-from app.errors import InputError, UserError
+from app.analysis.library import Library, Opened
+from app.errors import InputError
 from app.exports.file_names import safe
-from app.exports.offline_page import ExportEndedError, offline_page
-from app.panels.panel import Desk, Panel
+from app.exports.offline_page import offline_page
+from app.panels.panel import Panel, PanelContext
 from app.scene.views import THREE_D
-from app.session.commands import LatestWins
-from app.session.links import Place
+from app.session.command import LatestWins
+from app.session.links import SavedSession
+from app.session.outbox import Download, Message, Notice
+from app.session.tasks import Report
+from app.session.workbench import Workbench
 
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
-
-_LOG = logging.getLogger(__name__)
 _TITLE = "Offline page"
-_QUIET = 0.02  # seconds for which nobody has waited for an estimate, before the next frame
+_QUIET = 0.02  # seconds without work in the foreground, before the next frame
 _PATIENCE = 0.5  # seconds after which it goes on all the same
 
 
@@ -31,41 +27,8 @@ _PATIENCE = 0.5  # seconds after which it goes on all the same
 class SaveOfflinePage(LatestWins):
     """Save the recording as a page."""
 
-    panel: "OfflinePagePanel"
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Begin to make it, where there is a recording; InputError where one is being made."""
-        place = workbench.place()
-        if workbench.opened is not None and place is not None:
-            self.panel.begin(workbench.library, workbench.opened.entry, place, workbench.estimates)
-
-
-class OfflinePagePanel(Panel):
-    """A button that makes an offline page in the background, and sends it when it is ready."""
-
-    def __init__(self, desk: Desk) -> None:
-        self._client = desk.client
-        self._thread: threading.Thread | None = None
-        self._ended = threading.Event()
-        button = desk.client.gui.add_button(
-            "Save offline page",
-            icon=viser.Icon.MOVIE,
-            color="gray",
-            hint="All frames as one HTML file, which plays in any browser without network",
-        )
-
-        command = desk.client.gui.add_command("Save offline page", icon=viser.Icon.MOVIE)
-
-        @button.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            desk.post(SaveOfflinePage(self))
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            desk.post(SaveOfflinePage(self))
-
-    def begin(self, library: Library, entry: Entry, place: Place, estimates: Estimates) -> None:
-        """Make the page of a recording in a thread of its own, as it is seen from a place.
+    def apply(self, workbench: Workbench) -> None:
+        """Begin to make it, as the scene is seen now.
 
         The recording stays open for it, whatever the session opens meanwhile.
 
@@ -73,66 +36,63 @@ class OfflinePagePanel(Panel):
             InputError: one is being made already.
             RecordingError: the recording cannot be opened.
         """
-        if self._thread is not None and self._thread.is_alive():
-            raise InputError("An offline page is being made already; wait until it is there.")
-        self._ended.clear()
-        self._thread = threading.Thread(
-            target=self._make,
-            args=(library, library.open(entry), place, estimates),
-            name="offline page",
-        )  # not a daemon: it must not be cut off inside of Open3D when the program ends
-        self._thread.start()
-
-    def leave(self) -> None:
-        """End what is being made, before its next frame."""
-        self._ended.set()
-
-    def _make(self, library: Library, opened: Opened, place: Place, estimates: Estimates) -> None:
-        try:
-            self._draw(opened, place, estimates)
-        finally:
-            library.release(opened.entry)
-
-    def _draw(self, opened: Opened, place: Place, estimates: Estimates) -> None:
-        frames = range(len(opened.recording))
-        said = self._client.add_notification(
-            _TITLE, "Drawing frame by frame.", loading=True, with_close_button=False
-        )
-        told = time.monotonic()
-
-        def progress(index: int) -> None:
-            nonlocal told
-            estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
-            if self._ended.is_set():
-                raise ExportEndedError
-            if time.monotonic() > told + 0.3:
-                told = time.monotonic()
-                said.body = f"Frame {index} of {len(frames) - 1}."
-
-        try:
-            page = offline_page(
-                opened,
-                frames,
-                place.parameters,
-                place.settings,
-                place.camera or THREE_D,
-                estimates,
-                progress,
-                place.comparison,
-            )
-        except ExportEndedError:
+        saved, library, estimates = workbench.saved(), workbench.library, workbench.estimates
+        if workbench.opened is None or saved is None:
             return
-        except UserError as error:
-            self._say(str(error), "red")
-        except Exception as error:
-            _LOG.debug("An unexpected error.", exc_info=True)
-            self._say(f"It could not be made ({type(error).__name__}: {error}).", "red")
-        else:
-            name, content = f"{safe(opened.recording.name)}.html", page.encode()
-            self._client.send_file_download(name, content, save_immediately=True)
-            self._say(f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads.", "green")
-        finally:
-            said.remove()
+        if workbench.tasks.running(_TITLE):
+            raise InputError("An offline page is being made already; wait until it is there.")
+        opened = library.open(workbench.opened.entry)
+        workbench.tasks.start(
+            _TITLE,
+            "Drawing frame by frame.",
+            lambda report: _make(library, opened, saved, estimates, report),
+        )
 
-    def _say(self, sentence: str, colour: Literal["red", "green"]) -> None:
-        self._client.add_notification(_TITLE, sentence, color=colour, auto_close_seconds=10)
+
+class OfflinePagePanel(Panel):
+    """A button that makes an offline page in the background."""
+
+    def __init__(self, context: PanelContext) -> None:
+        button = context.client.gui.add_button(
+            "Save offline page",
+            icon=viser.Icon.MOVIE,
+            color="gray",
+            hint="All frames as one HTML file, which plays in any browser without network",
+        )
+
+        command = context.client.gui.add_command("Save offline page", icon=viser.Icon.MOVIE)
+
+        @button.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            context.post(SaveOfflinePage())
+
+        @command.on_trigger
+        async def _(_: viser.CommandEvent) -> None:
+            context.post(SaveOfflinePage())
+
+
+def _make(
+    library: Library, opened: Opened, saved: SavedSession, estimates: Estimates, report: Report
+) -> Sequence[Message]:
+    frames = range(len(opened.recording))
+
+    def progress(index: int) -> None:
+        estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
+        report(f"Frame {index} of {len(frames) - 1}.")
+
+    try:
+        page = offline_page(
+            opened,
+            frames,
+            saved.parameters,
+            saved.settings,
+            saved.camera or THREE_D,
+            estimates,
+            progress,
+            saved.comparison,
+        )
+    finally:
+        library.release(opened.entry)
+    name, content = f"{safe(opened.recording.name)}.html", page.encode()
+    said = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
+    return Download(name, content), Notice(_TITLE, said, "green", seconds=10.0)

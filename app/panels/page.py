@@ -8,11 +8,12 @@ from app.analysis.library import Opened
 from app.browser.fields import set_up_fields
 from app.browser.script import set_up_keys, set_up_scene_edge
 from app.panels.compare import ComparePanel
+from app.panels.delivery import Delivery
 from app.panels.explain import ExplainPanel
 from app.panels.legend import LegendPanel
 from app.panels.link import LinkPanel
 from app.panels.offline_page import OfflinePagePanel
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.panels.parameters import ParametersPanel
 from app.panels.playback import PlaybackPanel
 from app.panels.plots import PlotsPanel
@@ -21,73 +22,69 @@ from app.panels.recordings import RecordingsPanel
 from app.panels.screenshot import ScreenshotPanel
 from app.panels.status import StatusPanel
 from app.panels.view import ViewPanel
+from app.session.snapshot import Snapshot, Status
 
 TITLE = "Tofscope"
 
+_PANELS = (
+    RecordingsPanel,
+    PlaybackPanel,
+    StatusPanel,
+    ParametersPanel,
+    PresetsPanel,
+    ExplainPanel,
+    ComparePanel,
+    ViewPanel,
+    ScreenshotPanel,
+    OfflinePagePanel,
+    LegendPanel,
+    LinkPanel,
+    PlotsPanel,
+)
+"""All panels, from top to bottom."""
+
 
 class Page:
-    """All panels of a client, from top to bottom.
+    """All panels of a client."""
 
-    Attributes:
-        recordings: the panel that says what is open, or being opened.
-        parameters: the panel that changes of parameters are accepted and refused in.
-    """
+    def __init__(self, context: PanelContext) -> None:
+        self._client = context.client
+        self._opened: Opened | None = None
+        set_up_keys(context.client)
+        set_up_fields(context.client)
+        set_up_scene_edge(context.client)
+        self._delivery = Delivery(context.client)
+        self._panels: list[Panel] = [panel(context) for panel in _PANELS]
 
-    def __init__(self, desk: Desk) -> None:
-        self._client = desk.client
-        self._said: dict[str, viser.NotificationHandle] = {}
-        set_up_keys(desk.client)
-        set_up_fields(desk.client)
-        set_up_scene_edge(desk.client)
-        self.recordings = RecordingsPanel(desk)
-        self._panels: list[Panel] = [
-            self.recordings,
-            PlaybackPanel(desk),
-            StatusPanel(desk),
-        ]
-        self.parameters = ParametersPanel(desk)
-        self._panels += [
-            self.parameters,
-            PresetsPanel(desk),
-            ExplainPanel(desk),
-            ComparePanel(desk),
-            ViewPanel(desk),
-            ScreenshotPanel(desk),
-            OfflinePagePanel(desk),
-            LegendPanel(desk),
-            LinkPanel(desk),
-            PlotsPanel(desk),
-        ]
+    def announce(self, status: Status) -> None:
+        """Show what is shown at once, and hand messages to the browser."""
+        try:
+            for panel in self._panels:
+                panel.announce(status)
+        finally:
+            # A message comes after the state that it tells of.
+            self._deliver(status)
 
-    def open(self, opened: Opened) -> None:
-        """Prepare for a recording that was opened, and say what could not be used of it."""
-        recording, label = opened.recording, opened.entry.label
+    def show(self, snapshot: Snapshot) -> None:
+        """Show what was drawn, and hand messages to the browser."""
+        try:
+            if snapshot.opened is not self._opened:
+                self._open(snapshot.opened)
+            for panel in self._panels:
+                panel.show(snapshot)
+        finally:
+            self._deliver(snapshot)
+
+    def _deliver(self, status: Status) -> None:
+        self._delivery.deliver(status.outbox)
+        self._delivery.show_tasks(status.tasks)
+
+    def _open(self, opened: Opened) -> None:
+        self._opened = opened
         for panel in self._panels:
             panel.open(opened)
-        self._client.gui.set_panel_label(f"{TITLE} (simulated)" if recording.simulated else TITLE)
-        for warning in recording.warnings:
-            self._client.add_notification(label, warning, color="yellow", auto_close_seconds=15)
-
-    def show(self, shown: Shown) -> None:
-        """Show what the session shows."""
-        for panel in self._panels:
-            panel.show(shown)
-
-    def say(self, title: str, sentence: str) -> None:
-        """Tell a person something, in the place of what was said under this title before."""
-        if (before := self._said.get(title)) is not None:
-            before.remove()
-        self._said[title] = self._client.add_notification(title, sentence, auto_close_seconds=6)
-
-    def leave(self) -> None:
-        """End what is done for the client, which has gone."""
-        for panel in self._panels:
-            panel.leave()
-
-    def close(self) -> None:
-        """Let go of the recording, which is about to be closed."""
-        for panel in self._panels:
-            panel.close()
+        simulated = opened.recording.simulated
+        self._client.gui.set_panel_label(f"{TITLE} (simulated)" if simulated else TITLE)
 
 
 def show_empty_page(client: viser.ClientHandle, folders: Sequence[str]) -> None:

@@ -1,95 +1,50 @@
-"""What a panel of the page is: it posts wishes, and shows what the session shows."""
+"""Base of the page's panels: each posts commands, and shows the session's snapshot."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import viser
 
-from app.analysis.comparison import Comparison
-from app.analysis.estimates import Pair
 from app.analysis.library import Entry, Opened
-from app.analysis.surveys import Surveys
-from app.analysis.timeline import Timeline
-from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
-from app.session.clock import Playback
-from app.session.queue import Wish
+from app.session.command import Command
+from app.session.snapshot import Snapshot, Status
 from estimator import Parameters
 
 
 @dataclass(frozen=True)
-class Desk:
-    """What a panel is made with.
+class PanelContext:
+    """Surroundings that a panel is made in.
 
     Attributes:
         client: the browser client.
         entries: recordings to choose from, at least one.
         parameters: to begin with.
         settings: to begin with.
-        post: takes wishes, from any thread.
-        surveys: of whole recordings, computed in the background.
+        post: takes commands, from any thread.
     """
 
     client: viser.ClientHandle
     entries: Sequence[Entry]
     parameters: Parameters
     settings: ViewSettings
-    post: Callable[[Wish], None]
-    surveys: Surveys
-
-
-@dataclass(frozen=True)
-class Shown:
-    """What a session shows at one moment.
-
-    Attributes:
-        opened: the recording.
-        frame: k.
-        parameters: of the estimate.
-        settings: of the drawing.
-        legend: what its colours mean.
-        pair: of the frame, None where it could not be drawn.
-        comparison: with other parameters, None where there is none.
-        other: the pair with those other parameters, None unless its estimate is known.
-        picked: index of the picked cluster in the pair's flow, None where none is.
-        playing: whether time goes on.
-        playback: how it is played.
-        timeline: of the recording, as far as it is known.
-        seeking: whether a person is moving the frame slider on, which is then left to them.
-    """
-
-    opened: Opened
-    frame: int
-    parameters: Parameters
-    settings: ViewSettings
-    legend: Legend
-    pair: Pair | None
-    comparison: Comparison | None
-    other: Pair | None
-    picked: int | None
-    playing: bool
-    playback: Playback
-    timeline: Timeline
-    seeking: bool
+    post: Callable[[Command], None]
 
 
 class Panel:
-    """A part of the page. Its methods are called by the session's thread alone.
+    """Part of the page. Its methods are called by the session's thread alone.
 
-    A panel adds its controls when it is made, and posts wishes from their callbacks.
+    A panel adds its controls when it is made, and posts commands from their callbacks.
     """
 
-    def __init__(self, desk: Desk) -> None:
-        del desk
+    def __init__(self, context: PanelContext) -> None:
+        del context
 
     def open(self, opened: Opened) -> None:
-        """Prepare for a recording that was opened."""
+        """Prepare for a recording that was opened, before anything of it is shown."""
 
-    def show(self, shown: Shown) -> None:
-        """Show what the session shows; called whenever that may have changed."""
+    def announce(self, status: Status) -> None:
+        """Show what needs not wait until a recording is opened or a frame is estimated."""
 
-    def close(self) -> None:
-        """Let go of the recording, which is about to be closed."""
-
-    def leave(self) -> None:
-        """End what is done for the client, which has gone."""
+    def show(self, snapshot: Snapshot) -> None:
+        """Show the session's state after drawing; called whenever it may have changed."""

@@ -1,24 +1,25 @@
 """The estimator's parameters: sliders for the paper's four, the method, the others folded."""
 
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from html import escape
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import viser
 
-from app.panels.panel import Desk, Panel, Shown
+from app.browser.controls import show_value
+from app.panels.panel import Panel, PanelContext
+from app.session.command import Command
 from app.session.commands import ChangeParameters, ResetParameters
-from app.session.queue import Wish
+from app.session.snapshot import Snapshot, Status
+from app.session.tuning import Refusal
+from app.session.workbench import Workbench
 from estimator import PARAMETER_INFO, Parameters, method_names
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
 
 _READING = 4.0  # seconds for which a refusal is seen after the old value has come back
 _UNSET = 0
-"""What stands in a number field for a parameter that is unset."""
+"""Number in the field of a parameter that is unset."""
 
 _DEFAULTS: dict[str, Any] = {field.name: field.default for field in fields(Parameters)}
 _OPTIONAL = {name for name, default in _DEFAULTS.items() if default is None}
@@ -30,23 +31,25 @@ class UndoParameters:
 
     changes: int
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both."""
         return type(self)(earlier.changes + self.changes)
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Go through the history."""
-        workbench.undo_parameters(self.changes)
+        workbench.tuning.undo(self.changes)
 
 
 class ParametersPanel(Panel):
-    """Change parameters; what is out of range is refused in words."""
+    """Controls of all parameters; values out of range are refused in words."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, parameters, post = desk.client.gui, desk.parameters, desk.post
+    def __init__(self, context: PanelContext) -> None:
+        gui, parameters, post = context.client.gui, context.parameters, context.post
         self._controls: dict[str, Any] = {}
-        self._refused: set[str] = set()
-        self._read_at = 0.0
+        self._refused: set[str] = set()  # parameters in whose controls a refused value stands
+        self._put_back: set[str] = set()
+        self._readable_until = 0.0
+        self._revision = 0
         self._sliders = [name for name, info in PARAMETER_INFO.items() if info.slider]
         self._folder = gui.add_folder("Parameters")
         with self._folder:
@@ -91,74 +94,56 @@ class ParametersPanel(Panel):
 
         _add_commands(gui, post)
 
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Say whose parameters these are, where two sets are compared."""
-        compared = shown.comparison
+        compared = snapshot.comparison
         self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
-        if not self._refused and time.monotonic() > self._read_at:
-            self._refusal.visible = False
 
-    def replace(self, parameters: Parameters) -> None:
-        """Show these parameters, and that nothing is refused."""
-        self._refused = set(self._controls)
-        self.accept(parameters)
+    def announce(self, status: Status) -> None:
+        """Show values that something else has set, and say what is refused.
 
-    def meant(self, values: Mapping[str, Any], parameters: Parameters) -> dict[str, Any]:
-        """Which of these values a person wants.
-
-        When a slider's field loses the focus, the browser puts what was refused to the nearest
-        value that the slider offers. Nobody asked for that: it shows again what is in use.
-        """
-        clamped = {
-            name
-            for name in self._refused & set(values)
-            if isinstance(control := self._controls[name], viser.GuiSliderHandle)
-            and values[name] in (control.min, control.max)
-        }
-        for name in clamped:
-            self._show(name, parameters)
-        self._refused -= clamped
-        if clamped:
-            self._read_at = time.monotonic() + _READING
-        return {name: value for name, value in values.items() if name not in clamped}
-
-    def accept(self, parameters: Parameters) -> None:
-        """Show that a change was taken.
-
-        Only controls whose value was refused are set: a person may be moving the others.
+        Other controls are not set: a person may be moving them. A refused value stays in its
+        control, so that a person can go on typing, until it is taken, put back or replaced.
         """
         for name in self._sliders:
             # More than a slider offers may be typed, or come from a file.
-            self._controls[name].max = max(self._controls[name].max, getattr(parameters, name))
-        for name in self._refused:
-            self._show(name, parameters)
-        self._refused.clear()
-        self._refusal.visible = False
+            control = self._controls[name]
+            control.max = max(control.max, getattr(status.parameters, name))
+        refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
+        anew = status.parameters_revision != self._revision
+        for name in self._controls if anew else self._refused - refused:
+            value = getattr(status.parameters, name)
+            show_value(self._controls[name], _UNSET if value is None else value)
+        self._refused, self._revision = refused, status.parameters_revision
+        self._say(status.refusals)
 
-    def _show(self, name: str, parameters: Parameters) -> None:
-        value = getattr(parameters, name)
-        self._controls[name].value = _UNSET if value is None else value
+    def _say(self, refusals: Mapping[str, Refusal]) -> None:
+        put_back = {name for name, refusal in refusals.items() if refusal.put_back}
+        if put_back - self._put_back:
+            self._readable_until = time.monotonic() + _READING
+        self._put_back = put_back
+        reading = bool(put_back) and time.monotonic() < self._readable_until
+        self._refusal.visible = len(put_back) < len(refusals) or reading
+        if refusals:
+            *_, last = refusals.values()
+            self._refusal.content = (
+                '<div style="font-size: 0.8rem; padding: 0 1em; color: #c92a2a" role="alert">'
+                f"{escape(last.reason)}</div>"
+            )
 
-    def refuse(self, names: Iterable[str], reason: str) -> None:
-        """Say why values are not taken; the controls stay, so that a person can go on typing."""
-        self._refused.update(names)
-        self._refusal.content = (
-            '<div style="font-size: 0.8rem; padding: 0 1em; color: #c92a2a" role="alert">'
-            f"{escape(reason)}</div>"
-        )
-        self._refusal.visible = True
-
-    def _connect(self, name: str, post: Callable[[Wish], None]) -> None:
+    def _connect(self, name: str, post: Callable[[Command], None]) -> None:
         # Coroutines run at once, before anything can change a control's value again.
         @self._controls[name].on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
-                value = self._controls[name].value
-                unset = name in _OPTIONAL and value == _UNSET
-                post(ChangeParameters({name: None if unset else value}))
+                control = self._controls[name]
+                value = None if name in _OPTIONAL and control.value == _UNSET else control.value
+                slides = isinstance(control, viser.GuiSliderHandle)
+                at_end = slides and value in (control.min, control.max)
+                post(ChangeParameters({name: value}, frozenset([name] if at_end else [])))
 
 
-def _add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
+def _add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     undo = gui.add_command(
         "Undo parameters", hotkey="Z", modifier="cmd/ctrl", icon=viser.Icon.ARROW_BACK_UP
     )

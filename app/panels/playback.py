@@ -1,4 +1,4 @@
-"""Which frame is shown: slider, timeline, play and pause, steps, speed, loop and range."""
+"""Playback: slider, timeline, play and pause, steps, speed, loop and range."""
 
 from typing import Any
 
@@ -8,8 +8,8 @@ from viser import Icon
 from app.analysis.library import Opened
 from app.browser.controls import show_value
 from app.browser.fields import sets_along
-from app.panels.panel import Desk, Panel, Shown
-from app.panels.playback_wishes import (
+from app.panels.panel import Panel, PanelContext
+from app.panels.playback_commands import (
     STEPS,
     ChangePlayback,
     JumpToMotion,
@@ -20,6 +20,7 @@ from app.panels.playback_wishes import (
 from app.panels.timeline_strip import strip
 from app.session.clock import SPEEDS, Playback
 from app.session.commands import TogglePlay, seek, step
+from app.session.snapshot import Snapshot
 
 _JUMPS = {"Previous": -1, "Next": 1}
 
@@ -27,8 +28,8 @@ _JUMPS = {"Previous": -1, "Next": 1}
 class PlaybackPanel(Panel):
     """Scrub and play."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, post = desk.client.gui, desk.post
+    def __init__(self, context: PanelContext) -> None:
+        gui, post = context.client.gui, context.post
         self._post = post
         self._arrived = False
         with gui.add_folder("Playback"):
@@ -106,26 +107,26 @@ class PlaybackPanel(Panel):
         self._range.visible = last > 0
         self._arrived = False
 
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Show where playback is."""
-        stamps = shown.opened.recording.stamps
-        if not shown.seeking:
-            show_value(self._slider, shown.frame)
-        time, end = stamps[shown.frame] - stamps[0], stamps[-1] - stamps[0]
+        stamps = snapshot.opened.recording.stamps
+        if not snapshot.seeking:
+            show_value(self._slider, snapshot.frame)
+        time, end = stamps[snapshot.frame] - stamps[0], stamps[-1] - stamps[0]
         self._time.content = (
             '<div style="font-size: 0.75rem; padding: 0 1em 0.4em; opacity: 0.75;'
             ' font-variant-numeric: tabular-nums">'
-            f"Frame {shown.frame} of {len(stamps) - 1}, at {time:.2f} s of {end:.2f} s</div>"
+            f"Frame {snapshot.frame} of {len(stamps) - 1}, at {time:.2f} s of {end:.2f} s</div>"
         )
-        self._play.label = "Pause" if shown.playing else "Play"
-        self._play.icon = Icon.PLAYER_PAUSE if shown.playing else Icon.PLAYER_PLAY
+        self._play.label = "Pause" if snapshot.playing else "Play"
+        self._play.icon = Icon.PLAYER_PAUSE if snapshot.playing else Icon.PLAYER_PLAY
         self._strip.content = strip(
-            shown.timeline,
-            shown.playback,
-            shown.settings.palette,
+            snapshot.timeline,
+            snapshot.playback,
+            snapshot.settings.palette,
             sets_along(self._slider, len(stamps) - 1),
         )
-        self._follow(shown.playback)
+        self._follow(snapshot.playback)
 
     def _follow(self, playback: Playback) -> None:
         # Keys change speed and loop too; the range has no keys, and is left to its slider. What has

@@ -1,4 +1,4 @@
-"""Which plots there are, and how they look."""
+"""List of the plots, and their looks."""
 
 import math
 from collections.abc import Callable
@@ -29,7 +29,7 @@ class Line:
     """One kind of points in a plot.
 
     Attributes:
-        label: what people read, empty where the plot's title says it.
+        label: for people to read, empty where the plot's title says it.
         name: attribute of the survey.
         colour: of the points, as in the scene where they stand for something in it.
         needs_truth: whether it is empty without truth.
@@ -49,9 +49,9 @@ class PlotSpec:
         title: without the unit.
         unit: empty where there is none.
         form: format of its values.
-        lines: what is drawn.
+        lines: that are drawn.
         needs_truth: whether there is nothing to draw without truth.
-        top: what the vertical axis ends at, None to follow the data.
+        top: end of the vertical axis, None to follow the data.
     """
 
     title: str
@@ -89,7 +89,7 @@ class PlotSpec:
         }
 
     def series(self, colours: Palette) -> Any:  # noqa: ANN401 (viser's dictionaries)
-        """How its times and lines are drawn: points, since lines would bridge what is undefined."""
+        """Style of its times and lines: points, since lines would bridge what is undefined."""
         # Of equal values both are seen, the later in front of a larger one.
         sizes = (4,) if len(self.lines) == 1 else (6, 3)
         return (
@@ -189,7 +189,7 @@ PLOTS = (
 def summary(survey: Survey | None, *, has_truth: bool) -> str:
     """HTML: the means over the pairs that count, how far they are, or why there are none.
 
-    It is equally high whatever it says.
+    Equally high whatever is said.
     """
     share = float(survey.done.mean()) if survey else 0.0
     if survey is None or share < 1:

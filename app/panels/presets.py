@@ -1,9 +1,8 @@
-"""Parameters under names and in files: saved, loaded, deleted."""
+"""Presets: parameters under names and in files, saved, loaded and deleted."""
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Literal
 
 import viser
 from viser import Icon
@@ -11,14 +10,16 @@ from viser import Icon
 from app.analysis.parameter_files import from_text, to_text
 from app.browser.controls import show_value
 from app.errors import InputError
-from app.panels.panel import Desk, Panel, Shown
-from app.session.commands import LatestWins
-from app.session.presets import Presets, preset_folder
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.panels.panel import Panel, PanelContext
+from app.session.command import LatestWins
+from app.session.outbox import Download, Notice
+from app.session.presets import Presets, PresetUse, preset_folder
+from app.session.snapshot import Status
+from app.session.workbench import Workbench
+from estimator import Parameters
 
 _NONE: str = "(none saved yet)"
+_USES: dict[str, Literal["load", "delete"]] = {"Load": "load", "Delete": "delete"}
 _AGE = 2.0  # seconds after which they are listed again
 _LARGEST = 100_000  # bytes of a file of parameters
 
@@ -27,10 +28,10 @@ _LARGEST = 100_000  # bytes of a file of parameters
 class SaveParameters(LatestWins):
     """Save the parameters as a file that the command line takes."""
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Send the file to the browser."""
-        content = to_text(workbench.parameters).encode()
-        workbench.client.send_file_download("parameters.json", content, save_immediately=True)
+    def apply(self, workbench: Workbench) -> None:
+        """Put the file together."""
+        content = to_text(workbench.tuning.parameters).encode()
+        workbench.outbox.append(Download("parameters.json", content))
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class OpenParameters(LatestWins):
     name: str
     content: bytes
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Take them, or say why not."""
         if len(self.content) > _LARGEST:
             raise InputError(f"{self.name} is too large for a file of parameters.")
@@ -48,39 +49,53 @@ class OpenParameters(LatestWins):
             text = self.content.decode()
         except UnicodeDecodeError as error:
             raise InputError(f"{self.name} is no text, and so no file of parameters.") from error
-        workbench.set_parameters(from_text(text, self.name))
+        workbench.tuning.set(from_text(text, self.name))
 
 
 @dataclass(frozen=True)
 class UsePreset(LatestWins):
-    """Do something with the preset of a name: load, save, or delete it."""
+    """Load, save or delete the preset of a name."""
 
-    panel: "PresetsPanel"
-    action: str
+    action: Literal["load", "save", "delete"]
     name: str
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Do it, and show what there is afterwards."""
-        self.panel.use(workbench, self.action, self.name)
+    def apply(self, workbench: Workbench) -> None:
+        """Do it, or say why not."""
+        presets, done = Presets(preset_folder()), False
+        try:
+            match self.action:
+                case "load":
+                    workbench.tuning.set(presets.load(self.name))
+                case "save":
+                    workbench.outbox.append(_saved(presets, self.name, workbench.tuning.parameters))
+                case "delete":
+                    presets.delete(self.name)
+            done = True
+        finally:
+            workbench.preset_use = PresetUse(self.action, self.name, done)
+
+
+def _saved(presets: Presets, name: str, parameters: Parameters) -> Notice:
+    if not name:
+        raise InputError("Type a name first, under which the parameters are saved.")
+    was = " was there already; it" if name in presets.names() else ""
+    presets.save(name, parameters)
+    return Notice("Preset saved", f"{name}{was} holds these parameters now.", replaces=True)
 
 
 class PresetsPanel(Panel):
     """A list of presets, a field for the name of another, and files."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, post = desk.client.gui, desk.post
+    def __init__(self, context: PanelContext) -> None:
+        gui, post = context.client.gui, context.post
         self._presets = Presets(preset_folder())
         self._listed_at = -_AGE
-        self._actions: dict[str, Callable[[Workbench, str], None]] = {
-            "Load": self._load,
-            "Save": self._save,
-            "Delete": self._delete,
-        }
+        self._use: PresetUse | None = None
         with gui.add_folder("Presets", expand_by_default=False):
             self._list: viser.GuiDropdownHandle[str] = gui.add_dropdown(
                 "Preset", [_NONE], hint=f"Parameters that were saved in {preset_folder()}."
             )
-            uses = gui.add_button_group("", ("Load", "Delete"))
+            uses = gui.add_button_group("", tuple(_USES))
             self._name = gui.add_text("Name", "", hint="Under which Save keeps the parameters.")
             saves = gui.add_button_group("", ("Save",))
             save = gui.add_button(
@@ -100,11 +115,12 @@ class PresetsPanel(Panel):
         # Coroutines run at once, before anything can change a control's value again.
         @uses.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(UsePreset(self, uses.value, self._list.value))
+            if self._list.value != _NONE:
+                post(UsePreset(_USES[uses.value], self._list.value))
 
         @saves.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(UsePreset(self, "Save", self._name.value.strip()))
+            post(UsePreset("save", self._name.value.strip()))
 
         @save.on_click
         async def _(_: viser.GuiEvent) -> None:
@@ -121,36 +137,17 @@ class PresetsPanel(Panel):
             file = self._upload.value
             post(OpenParameters(file.name, file.content))
 
-    def show(self, shown: Shown) -> None:
+    def announce(self, status: Status) -> None:
         """List what is there now: other sessions save and delete, too."""
-        if time.monotonic() > self._listed_at + _AGE:
-            self._show(self._list.value)
-
-    def use(self, workbench: "Workbench", action: str, name: str) -> None:
-        """Load, save or delete a preset; InputError says why it cannot be."""
-        if name == _NONE:
-            return
-        try:
-            self._actions[action](workbench, name)
-        finally:
-            self._show(self._list.value)
-
-    def _load(self, workbench: "Workbench", name: str) -> None:
-        workbench.set_parameters(self._presets.load(name))
-        self._name.value = name
-
-    def _save(self, workbench: "Workbench", name: str) -> None:
-        if not name:
-            raise InputError("Type a name first, under which the parameters are saved.")
-        replaced = name in self._presets.names()
-        self._presets.save(name, workbench.parameters)
-        self._show(name)
-        was = " was there already; it" if replaced else ""
-        workbench.page.say("Preset saved", f"{name}{was} holds these parameters now.")
-
-    def _delete(self, workbench: "Workbench", name: str) -> None:
-        del workbench
-        self._presets.delete(name)
+        use, chosen = status.preset_use, self._list.value
+        used, self._use = use is not self._use, use
+        if used and use is not None and use.done:
+            if use.action == "load":
+                self._name.value = use.name
+            elif use.action == "save":
+                chosen = use.name
+        if used or time.monotonic() > self._listed_at + _AGE:
+            self._show(chosen)
 
     def _show(self, chosen: str) -> None:
         names = tuple(self._presets.names()) or (_NONE,)

@@ -1,23 +1,22 @@
-"""The list of recordings, and what is known of the one that is open."""
+"""List of recordings, and a description of the one that is open."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from html import escape
 
 import viser
 
 from app.analysis.library import Opened
 from app.browser.controls import show_value
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.session.commands import OpenRecording
+from app.session.snapshot import Snapshot, Status
 
 
 class RecordingsPanel(Panel):
     """Choose a recording."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui, post = desk.client.gui, desk.post
-        labels = tuple(entry.label for entry in desk.entries)
+    def __init__(self, context: PanelContext) -> None:
+        gui, post = context.client.gui, context.post
+        labels = tuple(entry.label for entry in context.entries)
         self._list = gui.add_dropdown(
             "Recording", labels, hint="The recordings of the opened files and folders."
         )
@@ -28,34 +27,21 @@ class RecordingsPanel(Panel):
             if event.client_id is not None:
                 post(OpenRecording(self._list.value))
 
-    @contextmanager
-    def opening(self, label: str, before: Opened | None) -> Iterator[None]:
-        """Say that a recording is being opened, which may take a while.
+    def announce(self, status: Status) -> None:
+        """Say what is being opened, which may take a while, or what is open."""
+        if status.opening is not None:
+            said = [f"Opening {status.opening} …"]
+        else:
+            said = describe(status.opened) if status.opened else ["No recording is open."]
+        self._about.content = "".join(_line(escape(text)) for text in said)
 
-        Args:
-            label: of the recording.
-            before: what is open, and stays open if the other cannot be opened.
-        """
-        self._about.content = _line(f"Opening {escape(label)} …")
-        try:
-            yield
-        except Exception:
-            self._about.content = _line("No recording is open.")
-            if before is not None:
-                self.open(before)
-            raise
-
-    def open(self, opened: Opened) -> None:
-        """Say what is open."""
-        self._about.content = "".join(_line(escape(text)) for text in describe(opened))
-
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Choose what is open, also after a recording that could not be opened."""
-        show_value(self._list, shown.opened.entry.label)
+        show_value(self._list, snapshot.opened.entry.label)
 
 
 def describe(opened: Opened) -> list[str]:
-    """What a person should know of a recording, in a few short lines."""
+    """Size and origin of a recording, in a few short lines."""
     recording = opened.recording
     lines: list[str] = []
     provenance = recording.provenance

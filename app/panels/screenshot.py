@@ -1,28 +1,32 @@
 """Pictures of the scene as PNG files in the browser's downloads."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+import numpy as np
 import viser
+from numpy.typing import NDArray
 
-from app.browser.script import canvas_size
 from app.errors import InputError
 from app.exports.captions import caption
 from app.exports.file_names import safe
 from app.exports.pictures import finished, png, side_by_side
-from app.panels.panel import Desk, Panel
+from app.panels.panel import Panel, PanelContext
 from app.scene import theme
+from app.scene.legend import Legend
 from app.scene.views import THREE_D, TOP
-from app.session.commands import LatestWins
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.session.command import LatestWins
+from app.session.outbox import Download
+from app.session.workbench import Workbench
 
 _AS_SHOWN = "As on the screen"
 _SIZES = {"1280 x 720": (1280, 720), "1600 x 900": (1600, 900), "1920 x 1080": (1920, 1080)}
 _SCALES = {"1x": 1, "2x": 2, "3x": 3}
 _WHITE, _TRANSPARENT = "White", "Transparent"
 _BACKGROUNDS = (_AS_SHOWN, _WHITE, _TRANSPARENT)
+_NO_PICTURE = (
+    "The browser gave no picture; bring its tab to the front and try again, or choose a smaller "
+    "size."
+)
 
 
 @dataclass(frozen=True)
@@ -30,10 +34,10 @@ class TakeScreenshot(LatestWins):
     """Save views as one PNG file, side by side.
 
     Attributes:
-        views: their names; None is what the page shows.
+        views: their names; None is the one on the screen.
         size: width and height of each in pixels; None is that of the scene on the screen.
-        scale: what both are multiplied with.
-        background: what is behind the scene, one of `_BACKGROUNDS`.
+        scale: factor of both.
+        background: of the scene, one of `_BACKGROUNDS`.
         legend: whether a legend is drawn.
     """
 
@@ -43,55 +47,58 @@ class TakeScreenshot(LatestWins):
     background: str
     legend: bool
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Take it, where there is something to take, and send the file to the browser.
+    def apply(self, workbench: Workbench) -> None:
+        """Take it, where there is something to take.
 
         Raises:
             InputError: the browser gave no picture.
         """
         if workbench.opened is None:
             return
-        size = self.size or canvas_size(workbench.client)
-        width, height = (self.scale * pixels for pixels in size)
-        dark = workbench.settings.dark
-        try:
-            if self.background == _WHITE:
-                # The colours for a dark background are too pale for a white one.
-                workbench.change_view({"dark": False})
-            taken = [workbench.photograph(view, width, height) for view in self.views]
-            legends = [workbench.legend if self.legend else None] + [None] * len(taken)
-        except (RuntimeError, TimeoutError) as error:
-            raise InputError(
-                "The browser gave no picture; bring its tab to the front and try again, "
-                "or choose a smaller size."
-            ) from error
-        finally:
-            if self.background == _WHITE:
-                workbench.change_view({"dark": dark})
+        recording, tuning = workbench.opened.recording, workbench.tuning
         background = {
             _WHITE: (255, 255, 255),
             _TRANSPARENT: None,
-        }.get(self.background, theme.background(dark))
+        }.get(self.background, theme.background(workbench.settings.dark))
+        taken, legend = self._take(workbench)
+        legends = [legend if self.legend else None] + [None] * len(taken)
         pictures = [
             finished(pixels, background, legend)
             for pixels, legend in zip(taken, legends, strict=False)
         ]
-        recording = workbench.opened.recording
-        compared = workbench.comparison
-        sides = compared.drawn(workbench.parameters) if compared else {}
-        said = caption(recording, workbench.parameters, workbench.frame, sides)
-        workbench.client.send_file_download(
-            file_name(recording.name, workbench.frame, self.views),
-            png(side_by_side(pictures), said),
-            save_immediately=True,
-        )
+        compared = tuning.comparison
+        sides = compared.drawn(tuning.parameters) if compared else {}
+        said = caption(recording, tuning.parameters, workbench.frame, sides)
+        name = file_name(recording.name, workbench.frame, self.views)
+        workbench.outbox.append(Download(name, png(side_by_side(pictures), said)))
+
+    def _take(self, workbench: Workbench) -> tuple[list[NDArray[np.uint8]], Legend]:
+        """Pixels (H, W, 4) of each view, and the legend of their colours."""
+        dark = workbench.settings.dark
+        try:
+            if workbench.pair is None:
+                raise InputError(_NO_PICTURE)
+            width, height = self.size or workbench.photographer.size()
+            size = (self.scale * width, self.scale * height)
+            if self.background == _WHITE:
+                # The colours for a dark background are too pale for a white one.
+                workbench.change_view({"dark": False})
+            take = workbench.photographer.take
+            return [
+                take(workbench.pair, view, *size) for view in self.views
+            ], workbench.scene.legend
+        except (RuntimeError, TimeoutError) as error:
+            raise InputError(_NO_PICTURE) from error
+        finally:
+            if self.background == _WHITE:
+                workbench.change_view({"dark": dark})
 
 
 class ScreenshotPanel(Panel):
-    """Buttons that save what the scene shows, or the two views that papers show."""
+    """Buttons that save the view on the screen, or the two views that papers show."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui = desk.client.gui
+    def __init__(self, context: PanelContext) -> None:
+        gui = context.client.gui
         shown = gui.add_button("Save screenshot", icon=viser.Icon.CAMERA, hint="PNG of the scene")
         both = gui.add_button(
             "Save 3D and top view",
@@ -108,7 +115,7 @@ class ScreenshotPanel(Panel):
             legend = gui.add_checkbox("With legend", True)
 
         def take(*views: str | None) -> None:
-            desk.post(
+            context.post(
                 TakeScreenshot(
                     views,
                     _SIZES.get(size.value),

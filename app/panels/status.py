@@ -1,4 +1,4 @@
-"""What was seen in the pair, in numbers."""
+"""Numbers of the pair that is shown."""
 
 import math
 from dataclasses import dataclass
@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.estimates import Pair
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
+from app.session.snapshot import Snapshot
 from estimator import Label, Parameters, SceneFlow
 
 _NOTHING = "–"
@@ -18,7 +19,7 @@ _NOTHING = "–"
 
 @dataclass(frozen=True)
 class Fact:
-    """One thing that is said about a pair, with its colour in the scene if it has one."""
+    """Number of a pair, with the colour in the scene of what it counts, if that has one."""
 
     name: str
     value: str
@@ -26,29 +27,29 @@ class Fact:
 
 
 class StatusPanel(Panel):
-    """Says how many points, clusters and labels there are, how long it took, and how good it is."""
+    """Counts of points, clusters and labels, the time that the estimate took, and its errors."""
 
-    def __init__(self, desk: Desk) -> None:
-        gui = desk.client.gui
+    def __init__(self, context: PanelContext) -> None:
+        gui = context.client.gui
         self._said: Pair | None = None
         self._colours: Palette | None = None
         with gui.add_folder("Status"):
             self._content = gui.add_html("")
 
-    def show(self, shown: Shown) -> None:
-        """Say what is to be said of the pair."""
-        if shown.pair is None:
+    def show(self, snapshot: Snapshot) -> None:
+        """Show the numbers of the pair."""
+        if snapshot.pair is None:
             self._said = None
             self._content.content = _framed("This frame cannot be shown.")
             return
-        if shown.pair is self._said and shown.settings.palette is self._colours:
+        if snapshot.pair is self._said and snapshot.settings.palette is self._colours:
             return
-        pair = self._said = shown.pair
-        colours = self._colours = shown.settings.palette
-        data = "simulated" if shown.opened.recording.simulated else "measured"
+        pair = self._said = snapshot.pair
+        colours = self._colours = snapshot.settings.palette
+        data = "simulated" if snapshot.opened.recording.simulated else "measured"
         cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Data", data)])
         grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
-        note = note_on(pair, shown.parameters, shown.opened.recording.truth_frame)
+        note = note_on(pair, snapshot.parameters, snapshot.opened.recording.truth_frame)
         # The note keeps its place also where there is none: the controls below stay put while a
         # person drags one of them.
         note = f'<div style="min-height: 2.4em; line-height: 1.2">{escape(note)}</div>'
@@ -83,7 +84,7 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
 
 
 def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) -> str:
-    """What the numbers cannot say: why there is no flow, and what to do about it.
+    """Reason why there is no flow or no truth, and what to do about it.
 
     Args:
         pair: that is shown.

@@ -1,23 +1,23 @@
-"""Where the camera stands, and how things are drawn: views, colours, sizes, layers."""
+"""View of the scene: the camera's place, colours, sizes, layers."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from typing import ClassVar, Literal
 
 import numpy as np
 import viser
 from viser import Icon
 
 from app.browser.controls import show_value
-from app.panels.panel import Desk, Panel, Shown
+from app.panels.panel import Panel, PanelContext
 from app.scene.lens import Lens, aspect_of
 from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS
 from app.scene.theme import dress
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
-from app.session.commands import CameraMoved, ChangeView, Look
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.session.command import LatestWins, Repeated
+from app.session.commands import ChangeView
+from app.session.snapshot import Snapshot
+from app.session.workbench import Workbench
 
 _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
     THREE_D: "1",
@@ -29,15 +29,32 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
 
 
 @dataclass(frozen=True)
-class _Toggle:
+class Look(LatestWins):
+    """Put the camera to the view of this name."""
+
+    view: str
+
+    def apply(self, workbench: Workbench) -> None:
+        """Put it there."""
+        if workbench.pair is not None:
+            workbench.framing.look(workbench.pair, self.view)
+
+
+@dataclass(frozen=True)
+class CameraMoved(LatestWins):
+    """The camera has come nearer or gone away, or its picture has got another shape."""
+
+    def apply(self, workbench: Workbench) -> None:
+        """Draw in sizes that suit it, and take its view anew in another shape."""
+        workbench.scene.focus()
+        if workbench.pair is not None:
+            workbench.framing.follow(workbench.pair)
+
+
+class _Toggle(Repeated):
     setting: ClassVar[str]
-    times: int = 1
 
-    def after(self, earlier: Self) -> Self:
-        """All the times."""
-        return type(self)(earlier.times + self.times)
-
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Draw so."""
         if self.times % 2:
             before = getattr(workbench.settings, self.setting)
@@ -57,26 +74,27 @@ class ToggleLegend(_Toggle):
 
 
 class ViewPanel(Panel):
-    """Change what is drawn; nothing of it makes the estimator run."""
+    """Controls of the drawing; none of them makes the estimator run."""
 
-    def __init__(self, desk: Desk) -> None:
-        self._gui, self._settings, self._post = desk.client.gui, desk.settings, desk.post
+    def __init__(self, context: PanelContext) -> None:
+        self._gui, self._post = context.client.gui, context.post
+        self._settings = context.settings
         self._dark = False  # a page begins light
-        self._legend = desk.settings.legend
+        self._legend = self._settings.legend
         with self._gui.add_folder("View"):
-            self._add_views(desk.client.camera)
+            self._add_views(context.client.camera)
             with self._gui.add_folder("Colours, sizes, layers", expand_by_default=False):
                 self._add_colours()
                 self._add_sizes()
                 self._add_layers()
 
-    def show(self, shown: Shown) -> None:
+    def show(self, snapshot: Snapshot) -> None:
         """Dress the page in light or dark, and follow the commands."""
-        if shown.settings.legend != self._legend:
-            self._legend = shown.settings.legend
+        if snapshot.settings.legend != self._legend:
+            self._legend = snapshot.settings.legend
             show_value(self._legend_box, self._legend)
-        if shown.settings.dark != self._dark:
-            self._dark = shown.settings.dark
+        if snapshot.settings.dark != self._dark:
+            self._dark = snapshot.settings.dark
             show_value(self._dark_box, self._dark)
             dress(self._gui, self._dark)
 
@@ -155,12 +173,13 @@ class ViewPanel(Panel):
             self._post(ChangeView({"point_size": min(max(point_size.value, 1.0), 20.0)}))
 
     def _add_layers(self) -> None:
-        shown = self._settings.layers
-        layers = {layer: self._gui.add_checkbox(layer, layer in shown) for layer in LAYERS}
+        layers = {
+            layer: self._gui.add_checkbox(layer, layer in self._settings.layers) for layer in LAYERS
+        }
 
         async def post_layers(_: viser.GuiEvent) -> None:
-            shown = frozenset(layer for layer, box in layers.items() if box.value)
-            self._post(ChangeView({"layers": shown}))
+            ticked = frozenset(layer for layer, box in layers.items() if box.value)
+            self._post(ChangeView({"layers": ticked}))
 
         for box in layers.values():
             box.on_update(post_layers)

@@ -13,52 +13,56 @@ from app.scene.scene import Scene
 _TIMEOUT = 40.0  # seconds; a tab in the background never renders
 
 
-def photograph(
-    client: viser.ClientHandle,
-    scene: Scene,
-    pair: Pair,
-    view: str | None,
-    width: int,
-    height: int,
-) -> NDArray[np.uint8]:
-    """Pixels (height, width, 4), transparent where nothing is.
+class Photographer:
+    """Takes pictures of a scene.
 
     Args:
-        client: whose browser renders it.
-        scene: what is to be seen.
-        pair: that the scene shows.
-        view: name of the view, None for where the camera is.
-        width: in pixels.
-        height: in pixels.
-
-    Raises:
-        RuntimeError: the browser has gone.
-        TimeoutError: it gives no picture.
+        client: whose browser renders them.
+        scene: that it shows.
     """
-    camera = client.camera
-    if view is None:
-        placed = View(np.asarray(camera.position), np.asarray(camera.look_at))
-        fov = float(camera.fov)
-    else:
-        placed, fov = scene.view(pair, view, width / height)
-    wxyz = vtf.SO3.from_matrix(looking(placed)).wxyz
-    # The page makes points as large as they have to be in its own window.
-    larger = height / canvas_size(client)[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
 
-    def render(height: int, width: int) -> NDArray[np.uint8]:
-        return client.get_render(
+    def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
+        self._client, self._scene = client, scene
+
+    def size(self) -> tuple[int, int]:
+        """Width and height of the scene in the page, CSS pixels."""
+        return canvas_size(self._client)
+
+    def take(self, pair: Pair, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
+        """Pixels (height, width, 4), transparent where nothing is.
+
+        Args:
+            pair: that the scene shows.
+            view: name of the view, None for where the camera is.
+            width: in pixels.
+            height: in pixels.
+
+        Raises:
+            RuntimeError: the browser has gone.
+            TimeoutError: it gives no picture, such as one whose tab is in the background.
+        """
+        camera = self._client.camera
+        if view is None:
+            placed = View(np.asarray(camera.position), np.asarray(camera.look_at))
+            fov = float(camera.fov)
+        else:
+            placed, fov = self._scene.view(pair, view, width / height)
+        # The page makes points as large as they have to be in its own window.
+        larger = height / self.size()[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
+        with self._scene.posed(placed, fov, larger, height):
+            self._render(placed, fov, 8, 8)  # sizes are taken over one image later than the rest
+            return self._render(placed, fov, height, width)
+
+    def _render(self, placed: View, fov: float, height: int, width: int) -> NDArray[np.uint8]:
+        return self._client.get_render(
             height,
             width,
-            wxyz=wxyz,
+            wxyz=vtf.SO3.from_matrix(looking(placed)).wxyz,
             position=placed.position,
             fov=fov,
             transport_format="png",
             timeout=_TIMEOUT,
         )
-
-    with scene.posed(placed, fov, larger, height):
-        render(8, 8)  # sizes are taken over one image later than everything else
-        return render(height, width)
 
 
 def looking(view: View) -> NDArray[np.float64]:

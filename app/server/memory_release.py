@@ -4,13 +4,13 @@ import ctypes
 import gc
 import threading
 
-_QUIET = 2.0  # seconds without anybody leaving, so that many who leave together cost once
+_QUIET = 2.0  # seconds after the last client left, so that many that leave together cost once
 
 
 class MemoryRelease:
-    """Collects what left clients held, and has the C library return it.
+    """Collection of all that left clients held, for the C library to return to the system.
 
-    What a client is sent lies in buffers of megabytes, made in many threads: freed, they stay with
+    Messages to a client lie in buffers of megabytes, made in many threads: freed, they stay with
     the process unless the library is asked to give them back.
     """
 
@@ -19,7 +19,7 @@ class MemoryRelease:
         self._timer: threading.Timer | None = None
 
     def soon(self) -> None:
-        """Do it once nobody has left for a while."""
+        """Do it once no client has left for a while."""
         with self._lock:
             if self._timer:
                 self._timer.cancel()

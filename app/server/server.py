@@ -6,6 +6,7 @@ import warnings
 import viser
 
 from app.browser.guarded_server import GuardedServer
+from app.browser.internals import CLOSED_CONNECTION
 from app.errors import InputError
 from app.panels.page import TITLE
 from app.scene.theme import dress
@@ -21,7 +22,7 @@ class Server:
     """Serves sessions until it is closed.
 
     Args:
-        shared: what sessions share.
+        shared: with all sessions.
         host: address to listen at.
         port: port to listen at, 0 for any that is free.
 
@@ -31,8 +32,8 @@ class Server:
 
     def __init__(self, shared: Shared, host: str, port: int) -> None:
         _check_free(host, port)
-        # A client may leave while its session is drawing: nobody misses what is not delivered.
-        warnings.filterwarnings("ignore", message=r"Queued a .* on a closed connection")
+        # A client may leave while its session is drawing: what is not delivered is not missed.
+        warnings.filterwarnings("ignore", message=CLOSED_CONNECTION)
         self._sessions: dict[int, Session] = {}
         self._memory = MemoryRelease()
         self._server = GuardedServer(host, port, label=TITLE)
@@ -55,12 +56,12 @@ class Server:
 
     @property
     def address(self) -> str:
-        """Where a browser on this machine finds the page."""
+        """Address of the page for a browser on this machine."""
         return self._address(_ANY.get(self.host, self.host))
 
     @property
     def address_for_others(self) -> str:
-        """Where a browser on another machine finds the page, as far as this one knows its name."""
+        """Address of the page for another machine, as far as this one knows its own name."""
         return self._address(_own_address(self.host) if self.host in _ANY else self.host)
 
     def _address(self, host: str) -> str:

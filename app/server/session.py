@@ -1,24 +1,38 @@
-"""A session: serves one browser client, in a thread of its own."""
+"""Session of one browser client, in a thread of its own."""
 
 import logging
 import threading
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from uuid import uuid4
 
 import viser
 
 from app.analysis.estimates import Estimates
-from app.analysis.library import Library
+from app.analysis.library import Entry, Library
+from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
 from app.browser.script import keep_token, take_link, take_token
 from app.errors import InputError, UserError
-from app.panels.page import show_empty_page
+from app.panels.page import Page, show_empty_page
+from app.panels.panel import PanelContext
 from app.scene.settings import ViewSettings
-from app.session.commands import Arrive, OpenAny
-from app.session.links import Place, from_token
-from app.session.queue import Mailbox
+from app.session.command import Command
+from app.session.commands import (
+    Move,
+    OpenFirst,
+    OpenRecording,
+    Restore,
+    TakeSurveyNews,
+    TakeTaskNews,
+)
+from app.session.followed_survey import FollowedSurvey
+from app.session.links import SavedSession, from_token
+from app.session.queue import CommandQueue
 from app.session.reload import Reloads
+from app.session.tasks import Tasks
+from app.session.tuning import Tuning
 from app.session.workbench import Workbench
 from estimator import Parameters
 
@@ -27,12 +41,12 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Shared:
-    """What all sessions use together; every part is safe under many threads.
+    """Parts that all sessions use together; each is safe under many threads.
 
     Attributes:
         library: the recordings.
-        estimates: what was computed already.
-        reloads: what ended sessions left.
+        estimates: that were computed already.
+        reloads: ended sessions, for when their page is loaded again.
         parameters: with which a session begins.
         surveys: of whole recordings, in the background.
     """
@@ -48,24 +62,24 @@ class Shared:
 
 
 class Session:
-    """Serves one client: viser's callbacks post wishes, one thread fulfils them and draws.
+    """Serves one client: viser's callbacks post commands, one thread applies them and draws.
 
     Args:
         client: the browser client.
-        shared: what sessions share.
+        shared: with all other sessions.
     """
 
     def __init__(self, client: viser.ClientHandle, shared: Shared) -> None:
         self._client = client
         self._shared = shared
-        self._mailbox = Mailbox()
+        self._queue = CommandQueue()
         self._said = ""
         self._thread = threading.Thread(target=self._run, name="session", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
         """End the session; its thread gives back what it holds."""
-        self._mailbox.close()
+        self._queue.close()
 
     def join(self, timeout: float) -> None:
         """Wait for a closed session's thread, `timeout` seconds at most."""
@@ -77,28 +91,18 @@ class Session:
             if not entries:
                 show_empty_page(self._client, [str(path) for path in self._shared.library.paths])
                 return
-            token, place = self._arrive()
+            token, saved = self._resume()
             labels = [entry.label for entry in entries]
-            if place and place.label not in labels:
-                self._say(f"The recording {place.label} is not among those that are listed here.")
-                place = None  # nor do its parameters suit another one
-            workbench = Workbench(
-                self._client,
-                self._shared.library,
-                self._shared.estimates,
-                self._shared.surveys,
-                entries,
-                place.parameters if place else self._shared.parameters,
-                self._shared.parameters,
-                place.settings if place else ViewSettings(),
-                self._mailbox,
-            )
-            self._mailbox.post(OpenAny((*([place.label] if place else []), *labels)))
-            if place:
-                self._mailbox.post(Arrive(place))
+            if saved and saved.label not in labels:
+                self._say(f"The recording {saved.label} is not among those that are listed here.")
+                saved = None  # nor do its parameters suit another one
+            workbench, page = self._build(entries, saved)
+            self._queue.post(OpenFirst((*([saved.label] if saved else []), *labels)))
+            if saved:
+                self._queue.post(Restore(saved))
             try:
-                self._serve(workbench)
-                if leaving := workbench.place():
+                self._serve(workbench, page)
+                if leaving := workbench.saved():
                     self._shared.reloads.leave(token, leaving)
             finally:
                 workbench.close()
@@ -106,27 +110,71 @@ class Session:
             # A client that leaves while its page is being built takes everything with it.
             _LOG.warning("A session could not begin.", exc_info=True)
 
-    def _arrive(self) -> tuple[str, Place | None]:
-        """A token for this session, and the place to begin at: a link's, or where it was left."""
-        token, place = str(uuid4()), None
+    def _resume(self) -> tuple[str, SavedSession | None]:
+        """A token for this session, and the session to resume: a link's, or the one left here."""
+        token, saved = str(uuid4()), None
         try:
             if link := take_link(self._client, timeout=2.0):
-                place = from_token(link)
+                saved = from_token(link)
             else:
-                place = self._shared.reloads.take(take_token(self._client, timeout=2.0))
+                saved = self._shared.reloads.take(take_token(self._client, timeout=2.0))
         except (RuntimeError, TimeoutError):
             pass  # a browser that stores nothing begins anew
         except InputError as error:
             self._say(str(error))
         keep_token(self._client, token)
-        return token, place
+        return token, saved
 
-    def _serve(self, workbench: Workbench) -> None:
-        while (wishes := self._mailbox.take(workbench.wait())) is not None:
-            fine = [self._try(lambda wish=wish: wish.fulfil(workbench)) for wish in wishes]
-            fine.append(self._try(workbench.draw))
+    def _build(
+        self, entries: Sequence[Entry], saved: SavedSession | None
+    ) -> tuple[Workbench, Page]:
+        shared, post = self._shared, self._queue.post
+        parameters = saved.parameters if saved else shared.parameters
+        settings = saved.settings if saved else ViewSettings()
+        workbench = Workbench(
+            self._client,
+            shared.library,
+            shared.estimates,
+            entries,
+            Tuning(parameters, shared.parameters),
+            settings,
+            FollowedSurvey(shared.surveys, lambda news: post(TakeSurveyNews(news))),
+            LiveTimeline(shared.estimates, shared.surveys),
+            Tasks(lambda event: post(TakeTaskNews((event,)))),
+        )
+        return workbench, Page(PanelContext(self._client, entries, parameters, settings, post))
+
+    def _serve(self, workbench: Workbench, page: Page) -> None:
+        def due() -> float | None:
+            return workbench.clock.wait(workbench.frame, time.monotonic())
+
+        while (commands := self._queue.take(due())) is not None:
+            fine = [
+                self._try(lambda command=command: self._apply(command, workbench, page))
+                for command in commands
+            ]
+            fine.append(self._try(lambda: page.announce(workbench.status())))
+            fine.append(self._try(lambda: self._draw(workbench, page)))
             if all(fine):
                 self._said = ""
+
+    def _apply(self, command: Command, workbench: Workbench, page: Page) -> None:
+        command.apply(workbench)
+        # What follows a command in the queue is meant for the recording that it has opened.
+        while workbench.opening.label is not None:
+            page.announce(workbench.status())
+            workbench.open_next()
+
+    def _draw(self, workbench: Workbench, page: Page) -> None:
+        if self._queue.has(OpenRecording):
+            return  # nothing is computed for a recording that is about to be left
+        try:
+            workbench.draw()
+        finally:
+            # Where a frame cannot be drawn, its number is shown all the more.
+            snapshot = workbench.snapshot(seeking=self._queue.has(Move))
+            if snapshot is not None:
+                page.show(snapshot)
 
     def _try(self, action: Callable[[], None]) -> bool:
         """Do something; what goes wrong is told to the person, and the session goes on."""
@@ -135,14 +183,18 @@ class Session:
         except UserError as error:
             self._say(str(error))
         except Exception as error:
-            _LOG.debug("An unexpected error.", exc_info=True)
-            self._say(f"Something unexpected went wrong ({type(error).__name__}: {error}).")
+            sentence = f"Something unexpected went wrong ({type(error).__name__}: {error})."
+            if self._say(sentence):
+                _LOG.exception("An unexpected error.")
         else:
             return True
         return False
 
-    def _say(self, sentence: str) -> None:
+    def _say(self, sentence: str) -> bool:
+        """Tell the person, unless it was said last; whether it was told."""
         # A recording that is broken at every frame complains once, not at every frame.
-        if sentence != self._said:
-            self._said = sentence
-            self._client.add_notification("Tofscope", sentence, color="red", auto_close_seconds=15)
+        if sentence == self._said:
+            return False
+        self._said = sentence
+        self._client.add_notification("Tofscope", sentence, color="red", auto_close_seconds=15)
+        return True

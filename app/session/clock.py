@@ -1,4 +1,4 @@
-"""Which frame is due: playback in the recording's own time, or faster, or slower."""
+"""Playback of a recording in its own time, or faster, or slower."""
 
 import bisect
 from collections.abc import Iterable
@@ -13,7 +13,7 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 
 @dataclass(frozen=True)
 class Playback:
-    """How a recording is played.
+    """Range, speed and loop of playback.
 
     Attributes:
         first: frame of the range that is played.
@@ -40,7 +40,7 @@ class PlaybackClock:
         self._stamps = [float(stamp) for stamp in stamps]
         whole = Playback(0, len(self._stamps) - 1)
         self.playback = replace(like, first=whole.first, last=whole.last) if like else whole
-        # How long the last frame is shown before a loop begins again.
+        # For so long the last frame is shown before a loop begins again.
         self._period = float(np.median(np.diff(self._stamps))) if whole.last > 0 else 0.1
         self._start: tuple[float, float] | None = None  # a stamp, and the time when it was due
         self._end = whole.last
@@ -53,7 +53,7 @@ class PlaybackClock:
     def play(self, frame: int, now: float) -> None:
         """Let time go on from `frame`, which is due at `now` (seconds of any steady clock)."""
         self._start = (self._stamps[frame], now)
-        # Who goes past the range wants to see what is there.
+        # A person who goes past the range wants to see what is there.
         beyond = frame > self.playback.last
         self._end = len(self._stamps) - 1 if beyond else self.playback.last
 
@@ -88,13 +88,13 @@ class PlaybackClock:
         self.play(self.playback.first, now)
         return self.playback.first
 
-    def wait(self, shown: int, now: float) -> float | None:
-        """Seconds from `now` until a frame after `shown` is due, None where none will be."""
-        if not self.playing or (shown >= self._end and not self.playback.loop):
+    def wait(self, frame: int, now: float) -> float | None:
+        """Seconds from `now` until a frame after `frame` is due, None where none will be."""
+        if not self.playing or (frame >= self._end and not self.playback.loop):
             return None
         due = self._stamps[self._end] + self._period
-        if shown < self._end:
-            due = self._stamps[shown + 1]
+        if frame < self._end:
+            due = self._stamps[frame + 1]
         return max((due - self._stamp(now)) / self.playback.speed, 0.0)
 
     def _stamp(self, now: float) -> float:

@@ -1,72 +1,56 @@
-"""What a person can wish for in a session; a panel with wishes of its own defines them itself."""
+"""Commands that several panels post, or the session itself; a panel defines its own beside it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Self
+from dataclasses import dataclass
+from time import monotonic
+from typing import Any, Self
 
-from app.errors import InputError, UserError
-from app.session.links import Place
-from estimator import ParameterError
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
-
-
-@dataclass(frozen=True)
-class LatestWins:
-    """Of several wishes of one kind the latest is the one that counts."""
-
-    def after(self, earlier: Self) -> Self:
-        """The latest of two wishes is the one that counts."""
-        return self
+from app.session.command import LatestWins, Repeated
+from app.session.followed_survey import SurveyNews
+from app.session.links import SavedSession
+from app.session.tasks import TaskEvent
+from app.session.workbench import Workbench
 
 
 @dataclass(frozen=True)
 class OpenRecording(LatestWins):
-    """Show the recording with this label in the list."""
+    """Open the recording with this label in the list."""
 
     label: str
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Open it."""
-        workbench.open(self.label)
+    def apply(self, workbench: Workbench) -> None:
+        """Want it, unless it is open already."""
+        opened = workbench.opened
+        if opened is None or opened.entry.label != self.label:
+            workbench.opening.want([self.label])
 
 
 @dataclass(frozen=True)
-class OpenAny(LatestWins):
-    """Show the first of these recordings that can be opened."""
+class OpenFirst(LatestWins):
+    """Open the first of these recordings that can be opened."""
 
     labels: tuple[str, ...]
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Open it; InputError says what was wrong with those before it."""
-        problems: list[str] = []
-        for label in self.labels:
-            try:
-                workbench.open(label)
-                break
-            except UserError as error:
-                problems.append(str(error))
-        if problems:
-            more = f" {len(problems) - 1} more could not be opened." if len(problems) > 1 else ""
-            raise InputError(problems[0] + more)
+    def apply(self, workbench: Workbench) -> None:
+        """Want them."""
+        workbench.opening.want(self.labels)
 
 
 @dataclass(frozen=True)
-class Arrive(LatestWins):
-    """Show a place in the recording that has been opened for it."""
+class Restore(LatestWins):
+    """Bring back a saved session in the recording that was opened for it."""
 
-    place: Place
+    saved: SavedSession
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Go there; in a recording that was opened instead of it there is no such place."""
-        if workbench.opened is not None and workbench.opened.entry.label == self.place.label:
-            workbench.arrive(self.place)
+    def apply(self, workbench: Workbench) -> None:
+        """Bring it back; in a recording that was opened instead there is nothing to restore."""
+        if workbench.opened is not None and workbench.opened.entry.label == self.saved.label:
+            workbench.restore(self.saved)
 
 
 @dataclass(frozen=True)
 class Move:
-    """Go to a frame and then some frames on: one kind of wish, so that its parts keep their order.
+    """Go to a frame and then some frames on: one kind of command, so that both keep their order.
 
     Attributes:
         start: frame to go to first, None for the one that is shown; a number outside the
@@ -77,13 +61,13 @@ class Move:
     start: int | None = None
     steps: int = 0
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both; where this one names a frame, it does not matter what was before."""
         if self.start is not None:
             return self
         return type(self)(earlier.start, earlier.steps + self.steps)
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Go there."""
         if self.start is not None:
             workbench.seek(self.start)
@@ -92,13 +76,46 @@ class Move:
 
 
 def seek(frame: int) -> Move:
-    """Show this frame; a number outside the recording means its first or last one."""
+    """Command to show this frame; a number outside the recording means its first or last one."""
     return Move(start=frame)
 
 
 def step(frames: int) -> Move:
-    """Go this many frames on, or back where it is negative."""
+    """Command to go this many frames on, or back where it is negative."""
     return Move(steps=frames)
+
+
+@dataclass(frozen=True)
+class TogglePlay(Repeated):
+    """Play where it stands still, and the other way round, this many times."""
+
+    def apply(self, workbench: Workbench) -> None:
+        """Play or pause."""
+        if self.times % 2:
+            workbench.toggle_play()
+
+
+@dataclass(frozen=True)
+class ChangeParameters:
+    """Estimate with values of controls from now on.
+
+    Attributes:
+        values: {parameter: value}.
+        at_end: those of them that are at an end of their slider, where the browser may have put
+            them by itself.
+    """
+
+    values: Mapping[str, Any]
+    at_end: frozenset[str] = frozenset()
+
+    def merged_with(self, earlier: Self) -> Self:
+        """Both changes, the later value of each parameter."""
+        at_end = self.at_end | (earlier.at_end - self.values.keys())
+        return type(self)({**earlier.values, **self.values}, at_end)
+
+    def apply(self, workbench: Workbench) -> None:
+        """Take the values, or refuse them."""
+        workbench.tuning.enter(self.values, self.at_end, monotonic())
 
 
 @dataclass(frozen=True)
@@ -107,38 +124,13 @@ class ResetParameters:
 
     names: frozenset[str]
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both of them."""
         return type(self)(earlier.names | self.names)
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Put them back."""
-        values = {name: getattr(workbench.defaults, name) for name in self.names}
-        workbench.set_parameters(replace(workbench.parameters, **values))
-
-
-@dataclass(frozen=True)
-class ChangeParameters:
-    """Estimate with these values, {name of the parameter: value}, from now on."""
-
-    values: Mapping[str, Any]
-
-    def after(self, earlier: Self) -> Self:
-        """Both changes, the later value of each parameter."""
-        return type(self)({**earlier.values, **self.values})
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Take them, or say why not."""
-        panel = workbench.page.parameters
-        values = panel.meant(self.values, workbench.parameters)
-        if not values:
-            return
-        try:
-            workbench.change_parameters(values)
-        except ParameterError as error:
-            panel.refuse(values, str(error))
-        else:
-            panel.accept(workbench.parameters)
+        workbench.tuning.reset(self.names)
 
 
 @dataclass(frozen=True)
@@ -147,46 +139,37 @@ class ChangeView:
 
     values: Mapping[str, Any]
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both changes, the later value of each setting."""
         return type(self)({**earlier.values, **self.values})
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Draw so."""
         workbench.change_view(self.values)
 
 
 @dataclass(frozen=True)
-class TogglePlay:
-    """Play where it stands still, and the other way round, this many times."""
+class TakeSurveyNews(LatestWins):
+    """Take note that the background has filled more of a survey."""
 
-    times: int = 1
+    news: SurveyNews
 
-    def after(self, earlier: Self) -> Self:
-        """All the times."""
-        return type(self)(earlier.times + self.times)
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Play or pause."""
-        if self.times % 2:
-            workbench.toggle_play()
+    def apply(self, workbench: Workbench) -> None:
+        """Take note of it."""
+        workbench.survey.receive(self.news)
 
 
 @dataclass(frozen=True)
-class Look(LatestWins):
-    """Put the camera to the view of this name."""
+class TakeTaskNews:
+    """Take note of how far background tasks are, and hand out their results."""
 
-    view: str
+    events: tuple[TaskEvent, ...]
 
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Put it there."""
-        workbench.look(self.view)
+    def merged_with(self, earlier: Self) -> Self:
+        """All of them, in their order."""
+        return type(self)(earlier.events + self.events)
 
-
-@dataclass(frozen=True)
-class CameraMoved(LatestWins):
-    """The camera has come nearer or gone away, or its picture has got another shape."""
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Draw in sizes that suit it."""
-        workbench.focus()
+    def apply(self, workbench: Workbench) -> None:
+        """Take note of them."""
+        for event in self.events:
+            workbench.outbox += workbench.tasks.receive(event)

@@ -13,7 +13,7 @@ _NOTHING: tuple[frozenset[str], float] = (frozenset(), -_DRAG)
 
 
 class ParameterHistory:
-    """What changed, one entry per drag of a slider; each is {name: the value to go back to}."""
+    """Changes, one entry per drag of a slider; each is {name: the value to go back to}."""
 
     def __init__(self) -> None:
         self._undo: list[Mapping[str, Any]] = []

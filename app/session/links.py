@@ -1,4 +1,4 @@
-"""What a session shows, for when its page is loaded again, and as a link."""
+"""Saved sessions, which reloads of a page bring back, and links to them."""
 
 import base64
 import binascii
@@ -21,18 +21,18 @@ _DAMAGED = "The link is damaged; copy it once more."
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where somebody is.
+class SavedSession:
+    """Recording, frame and all that was set, as a session shows them.
 
     Attributes:
         label: of the recording in the list.
-        frame: that is shown.
-        parameters: that are set.
-        camera: where it stands, None where that is not known.
+        frame: k.
+        parameters: of the estimate.
+        camera: of the scene, None where it is not known.
         settings: of the drawing.
         comparison: with a second set of parameters, None where there is none.
-        playback: how it is played, None for the whole recording at its own speed.
-        playing: whether it is.
+        playback: of the recording, None for all of it at its own speed.
+        playing: whether time goes on.
     """
 
     label: str
@@ -45,9 +45,9 @@ class Place:
     playing: bool = False
 
     def token(self) -> str:
-        """What a link leads to, in letters that an address can hold.
+        """Recording, frame, parameters and camera in letters that an address can hold.
 
-        The way in which somebody looks at it, and compares and plays it, is everybody's own.
+        View settings, comparison and playback stay with the person who has set them.
         """
         defaults = asdict(Parameters())
         content: dict[str, Any] = {"recording": self.label, "frame": self.frame}
@@ -63,8 +63,8 @@ class Place:
         return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
 
 
-def from_token(token: str) -> Place:
-    """The place that a token stands for; anybody can have made it.
+def from_token(token: str) -> SavedSession:
+    """Saved session that a token of a link stands for, whatever it is.
 
     Raises:
         InputError: it stands for none, or its parameters cannot be used.
@@ -80,7 +80,7 @@ def from_token(token: str) -> Place:
         raise InputError(_DAMAGED) from error
     if not isinstance(label, str) or not isinstance(frame, int) or not isinstance(parameters, dict):
         raise InputError(_DAMAGED)
-    return Place(label, frame, from_text(json.dumps(parameters), "The link"), camera)
+    return SavedSession(label, frame, from_text(json.dumps(parameters), "The link"), camera)
 
 
 def _camera(numbers: list[float]) -> Camera:

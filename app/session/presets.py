@@ -2,7 +2,9 @@
 
 import os
 import re
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from app.analysis.parameter_files import load, to_text
 from app.errors import InputError
@@ -13,10 +15,25 @@ _NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
 
 
 def preset_folder() -> Path:
-    """Where the user's presets are: $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
+    """Folder of the user's presets: $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
     home = os.environ.get("XDG_CONFIG_HOME", "")
     base = Path(home) if Path(home).is_absolute() else Path.home() / ".config"
     return base / "tofscope" / "presets"
+
+
+@dataclass(frozen=True)
+class PresetUse:
+    """Use of a preset; another one each time.
+
+    Attributes:
+        action: tried with it.
+        name: of the preset.
+        done: whether it could be.
+    """
+
+    action: Literal["load", "save", "delete"]
+    name: str
+    done: bool
 
 
 class Presets:
@@ -49,7 +66,7 @@ class Presets:
             InputError: the name or the folder cannot be used.
         """
         path = self._path(name)
-        # Who reads at the same time finds the old file or the new one, and never half of it.
+        # A session that reads at the same time finds the old file or the new one, never half of it.
         unfinished = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             self._folder.mkdir(parents=True, exist_ok=True)

@@ -1,64 +1,50 @@
-"""Where callbacks leave what a person wishes: one slot per kind of wish, the latest wins."""
+"""Queue of a session's commands: callbacks post, one thread takes."""
 
 import threading
-from collections.abc import Hashable
-from typing import TYPE_CHECKING, Protocol, Self
 
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.session.command import Command
 
 
-class Wish(Protocol):
-    """Something that a person wants; its class is its kind."""
+class CommandQueue:
+    """Thread-safe queue of pending commands, at most one of each kind.
 
-    def after(self, earlier: Self) -> Self:
-        """The one wish that stands for an `earlier` one, not yet taken, and this one."""
-        ...
-
-    def fulfil(self, workbench: "Workbench") -> None:
-        """Do what is wished, in the session's thread; may raise what a person is to be told."""
-        ...
-
-
-class Mailbox:
-    """Wishes of one session between viser's threads, which post, and the worker, which takes.
-
-    However many wishes are posted, no more than one of each kind waits, so nothing queues.
+    However many commands are posted, those of one kind are merged, so that nothing piles up.
     """
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
-        self._waiting: dict[Hashable, Wish] = {}
+        self._pending: dict[type[Command], Command] = {}
         self._closed = False
 
-    def post(self, wish: Wish) -> None:
-        """Leave a wish; one of its kind that still waits is merged into it."""
+    def post(self, command: Command) -> None:
+        """Add a command; a pending one of its kind is merged into it."""
+        kind = type(command)
         with self._changed:
-            earlier = self._waiting.pop(type(wish), None)
-            self._waiting[type(wish)] = wish if earlier is None else wish.after(earlier)
+            earlier = self._pending.pop(kind, None)
+            self._pending[kind] = command if earlier is None else command.merged_with(earlier)
             self._changed.notify()
 
-    def waits(self, kind: type) -> bool:
-        """Whether a wish of this kind waits."""
+    def has(self, kind: type[Command]) -> bool:
+        """Whether a command of this kind is pending."""
         with self._changed:
-            return kind in self._waiting
+            return kind in self._pending
 
-    def take(self, timeout: float | None = None) -> list[Wish] | None:
-        """Take all wishes, in the order of their last post.
+    def take(self, timeout: float | None = None) -> list[Command] | None:
+        """Take all commands, in the order of their last post.
 
         Args:
             timeout: seconds to wait for one at most; None waits as long as it takes.
 
         Returns:
-            The wishes, none after the timeout, or None where the mailbox is closed.
+            The commands, none after the timeout, or None where the queue is closed.
         """
         with self._changed:
-            self._changed.wait_for(lambda: self._waiting or self._closed, timeout)
+            self._changed.wait_for(lambda: self._pending or self._closed, timeout)
             if self._closed:
                 return None
-            wishes = list(self._waiting.values())
-            self._waiting.clear()
-            return wishes
+            commands = list(self._pending.values())
+            self._pending.clear()
+            return commands
 
     def close(self) -> None:
         """End every wait, now and later."""

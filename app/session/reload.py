@@ -1,13 +1,13 @@
-"""What a client left behind, for when its page is loaded again."""
+"""Sessions that clients have left, kept for a reload of their page."""
 
 import threading
 from collections import OrderedDict
 
-from app.session.links import Place
+from app.session.links import SavedSession
 
 
 class Reloads:
-    """Keeps what ended sessions left, under tokens that browsers hold; the oldest are forgotten.
+    """Saved sessions under tokens that browsers hold; the oldest are forgotten.
 
     A tab keeps nothing but its token, so nothing that it sends has to be trusted, and the copy of
     a tab, which finds the token of a session that goes on, begins anew.
@@ -16,16 +16,16 @@ class Reloads:
     def __init__(self, size: int = 64) -> None:
         self._size = size
         self._lock = threading.Lock()
-        self._left: OrderedDict[str, Place] = OrderedDict()
+        self._left: OrderedDict[str, SavedSession] = OrderedDict()
 
-    def leave(self, token: str, left: Place) -> None:
-        """Keep what a session left."""
+    def leave(self, token: str, left: SavedSession) -> None:
+        """Keep an ended session."""
         with self._lock:
             self._left[token] = left
             while len(self._left) > self._size:
                 self._left.popitem(last=False)
 
-    def take(self, token: str | None) -> Place | None:
-        """Hand out what was left under a token, once; None where there is nothing."""
+    def take(self, token: str | None) -> SavedSession | None:
+        """Hand out the session that was left under a token, once; None where there is none."""
         with self._lock:
             return self._left.pop(token, None) if token is not None else None

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
-from app.analysis.first_frame import candidates, telling_frame
+from app.analysis.first_frame import candidates, first_frame_with_flow
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
 
@@ -20,12 +20,12 @@ def moving_late():
 def test_with_truth_it_is_the_middle_of_the_motion():
     recording = fake_recording()
     recording.truth = lambda k: SPEED if 10 <= k < 30 else np.zeros(3)
-    assert telling_frame(fake_opened(recording), Parameters(), Estimates()) == 24
+    assert first_frame_with_flow(fake_opened(recording), Parameters(), Estimates()) == 24
 
 
 def test_without_truth_it_looks_for_flow():
     opened, estimates = fake_opened(moving_late()), Estimates()
-    frame = telling_frame(opened, Parameters(), estimates)
+    frame = first_frame_with_flow(opened, Parameters(), estimates)
     flow = estimates.estimated(opened, frame, Parameters()).flow
     assert flow is not None
     assert flow.moving.sum() == 100
@@ -35,7 +35,10 @@ def test_without_truth_it_looks_for_flow():
 def test_where_nothing_moves_it_is_the_middle():
     recording = moving_late()
     opened = fake_opened(recording)
-    assert telling_frame(opened, Parameters(delta=0.5), Estimates()) == candidates(recording, 8)[0]
+    assert (
+        first_frame_with_flow(opened, Parameters(delta=0.5), Estimates())
+        == candidates(recording, 8)[0]
+    )
     assert candidates(recording, 8)[0] == pytest.approx(FRAMES / 2, abs=4)
 
 
@@ -49,7 +52,10 @@ def test_frames_that_cannot_be_read_are_passed_over():
         return cloud(k, max_range)
 
     recording.cloud = broken_in_the_middle
-    assert telling_frame(fake_opened(recording), Parameters(), Estimates()) not in (24, 24 + 8)
+    assert first_frame_with_flow(fake_opened(recording), Parameters(), Estimates()) not in (
+        24,
+        24 + 8,
+    )
 
 
 @pytest.mark.parametrize("length", [1, 2, 9])
@@ -57,4 +63,4 @@ def test_short_recordings_have_a_frame(length):
     recording = fake_recording()
     short = type("Short", (type(recording),), {"__len__": lambda self: length})
     recording.__class__ = short
-    assert 0 <= telling_frame(fake_opened(recording), Parameters(), Estimates()) < length
+    assert 0 <= first_frame_with_flow(fake_opened(recording), Parameters(), Estimates()) < length

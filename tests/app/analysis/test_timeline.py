@@ -9,7 +9,7 @@ import pytest
 
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
-from app.analysis.live_timeline import Outlook
+from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
 from app.analysis.timeline import Timeline, gaps, neighbour, stretches
 from app.panels.timeline_strip import strip
@@ -60,8 +60,8 @@ def test_neighbours_of_a_frame():
 def timeline(
     opened: Opened, estimates: Estimates, parameters: Parameters | None = None
 ) -> Timeline:
-    outlook = Outlook(estimates, Surveys(estimates))
-    return outlook.timeline(opened, parameters or Parameters())
+    live = LiveTimeline(estimates, Surveys(estimates))
+    return live.of(opened, parameters or Parameters())
 
 
 def without_truth() -> Any:
@@ -100,12 +100,12 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     recording.cloud = some_empty
     opened, estimates = fake_opened(recording), Estimates(flows=4)
     surveys = Surveys(estimates)
-    outlook, complete = Outlook(estimates, surveys), threading.Event()
+    live, complete = LiveTimeline(estimates, surveys), threading.Event()
     surveys.ask(
         "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None
     )
     assert complete.wait(60)
-    seen = outlook.timeline(opened, Parameters())
+    seen = live.of(opened, Parameters())
     assert seen.empty == ((2, 3), (30, 30))
     assert seen.moving == ((8, 9), (12, 29), (31, 37), (39, 39))
     # Others ask for so many that this one is forgotten.
@@ -114,8 +114,8 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
         surveys.ask("you", opened, Parameters(n=30, n_min=n), lambda _, other=other: other.set())
         assert other.wait(60)
     assert surveys.known(opened, Parameters()) is None
-    outlook._last = None if outlook._last is None else (*outlook._last[:1], 0.0, seen)
-    assert outlook.timeline(opened, Parameters()) == seen
+    live._last = None if live._last is None else (*live._last[:1], 0.0, seen)
+    assert live.of(opened, Parameters()) == seen
 
 
 def test_the_strip_names_what_it_shows_and_nothing_else():

@@ -6,7 +6,7 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
-from app.exports.offline_page import MOST_FRAMES, ExportEndedError, offline_page
+from app.exports.offline_page import MOST_FRAMES, offline_page
 from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
 from app.scene.views import THREE_D
@@ -57,9 +57,9 @@ def test_it_can_be_ended_and_gives_back_its_server(monkeypatch):
     def progress(index):
         drawn.append(index)
         if index == 2:
-            raise ExportEndedError
+            raise InterruptedError
 
-    with pytest.raises(ExportEndedError):
+    with pytest.raises(InterruptedError):
         page(fake_opened(), range(10), progress)
     assert drawn == [0, 1, 2]
     assert len(stopped) == 1

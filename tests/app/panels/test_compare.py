@@ -9,7 +9,7 @@ from app.panels.compare import ComparePanel
 from app.panels.differences import changes, difference_table
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
-from tests.app.fake_session import desk, shown
+from tests.app.fake_session import context, snapshot
 
 
 def rows(html):
@@ -69,7 +69,7 @@ def test_order_and_switch():
 
 
 def test_the_panel_says_which_is_edited_and_what_is_not_estimated(client):
-    panel, now = ComparePanel(desk(client)), shown(fake_opened(), parameters=Parameters(n=5))
+    panel, now = ComparePanel(context(client)), snapshot(parameters=Parameters(n=5))
     panel.show(now)
     assert "Copy A to B, then change it." in client.text()
     assert not client.control("Draw both").visible
@@ -81,7 +81,7 @@ def test_the_panel_says_which_is_edited_and_what_is_not_estimated(client):
     assert not client.control("Draw both").value
     assert client.control("Switch to A").visible
     both = Comparison(Parameters(), edited=B, both=True)
-    panel.show(replace(now, comparison=both, other=shown(fake_opened()).pair))
+    panel.show(replace(now, comparison=both, other=snapshot().pair))
     assert client.control("Draw both").value
     assert "not estimated here" not in client.text()
     assert rows(client.text())["Moving"] == ["100", "100", "+0"]

@@ -12,7 +12,7 @@ from app.scene.colours import PICKED, css
 from app.scene.settings import ViewSettings
 from estimator import IcpRound, Label, Parameters
 from tests.app.fake_recordings import fake_opened
-from tests.app.fake_session import desk, shown
+from tests.app.fake_session import context, snapshot
 
 NAN = float("nan")
 COLOURS = ViewSettings().palette
@@ -117,7 +117,7 @@ def test_axes_end_at_a_round_number(values, limit):
 
 
 def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, moving):
-    panel, now = ExplainPanel(desk(client)), shown(fake_opened())
+    panel, now = ExplainPanel(context(client)), snapshot()
     panel.show(now)
     assert len(client.control("Cluster").options) == 6
     assert client.control("Cluster").value == "none"
@@ -132,7 +132,7 @@ def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, mo
 
 
 def test_what_moves_has_the_colour_of_the_flow_on_every_page(client, moving):
-    panel, now = ExplainPanel(desk(client)), shown(fake_opened())
+    panel, now = ExplainPanel(context(client)), snapshot()
     dark = replace(now, settings=replace(now.settings, dark=True))
     light, bright = (f'fill="{css(s.settings.palette.flow)}"' for s in (now, dark))
     panel.show(replace(now, picked=moving.index))
@@ -143,16 +143,10 @@ def test_what_moves_has_the_colour_of_the_flow_on_every_page(client, moving):
 
 
 def test_a_pick_in_the_scene_unfolds_its_story_and_a_miss_does_not(client):
-    class Workbench:
-        def __init__(self, found):
-            self.client, self.found = client, found
-
-        def pick_at(self, origin, direction):
-            return self.found
-
-    for found in (False, True):
+    panel = ExplainPanel(context(client))
+    for picked_in_scene, found in ((0, False), (1, True), (1, False), (2, True)):
         client.take_sent()
-        PickAt((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)).fulfil(Workbench(found))  # pyright: ignore[reportArgumentType]
+        panel.show(snapshot(picked_in_scene=picked_in_scene))
         scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
         assert ("window.tofscopeUnfold('Explain')" in scripts) is found
 
@@ -160,13 +154,13 @@ def test_a_pick_in_the_scene_unfolds_its_story_and_a_miss_does_not(client):
 def test_what_a_person_picks_is_posted(client):
     posted, clicked = [], threading.Event()
 
-    def post(wish):
-        posted.append(wish)
-        if isinstance(wish, PickAt):
+    def post(command):
+        posted.append(command)
+        if isinstance(command, PickAt):
             clicked.set()
 
-    panel = ExplainPanel(desk(client, post))
-    panel.show(shown(fake_opened()))
+    panel = ExplainPanel(context(client, post))
+    panel.show(snapshot())
     assert posted == []
     client.change("Cluster", client.control("Cluster").options[2])
     client.change("Cluster", "none")

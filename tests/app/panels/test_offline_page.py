@@ -1,4 +1,5 @@
 import threading
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -6,12 +7,13 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.analysis.library import Entry, Opened
 from app.errors import InputError
-from app.panels.offline_page import OfflinePagePanel
-from app.session.links import Place
+from app.panels.offline_page import SaveOfflinePage
+from app.session.links import SavedSession
+from app.session.outbox import Download
+from app.session.tasks import Tasks
 from estimator import Parameters
 from recordings import RecordingError
 from tests.app.fake_recordings import fake_opened, fake_recording
-from tests.app.fake_session import desk
 from tests.app.waiting import until
 
 
@@ -31,61 +33,81 @@ class Holding:
         self.users -= 1
 
 
-def begin(panel: OfflinePagePanel, recording: Any = None) -> Holding:
-    library: Any = Holding(recording)
-    panel.begin(library, library.opened.entry, Place("a", 0, Parameters()), Estimates())
-    return library
+class Bench(SimpleNamespace):
+    """As much of a workbench as the command needs."""
+
+    def __init__(self):
+        super().__init__(tasks=Tasks(self._receive), estimates=Estimates(), messages=[])
+
+    def _receive(self, event):
+        self.messages += self.tasks.receive(event)
+
+    def saved(self):
+        return SavedSession("a", 0, Parameters())
+
+    def begin(self, recording: Any = None) -> Holding:
+        self.library = Holding(recording)
+        self.opened = self.library.opened
+        SaveOfflinePage().apply(self)  # pyright: ignore[reportArgumentType]
+        return self.library
+
+    @property
+    def downloads(self):
+        return [message for message in self.messages if isinstance(message, Download)]
+
+    @property
+    def notices(self):
+        return [m.sentence for m in self.messages if not isinstance(m, Download)]
 
 
-def test_the_page_arrives_when_it_is_ready(client):
-    panel = OfflinePagePanel(desk(client))
-    begin(panel, fake_recording(name="a/b"))
-    until(lambda: client.downloads)
-    (name, content), *others = client.downloads
-    assert (name, others) == ("a_b.html", [])
-    assert b"<title>a/b</title>" in content
-    until(lambda: any(said.startswith("a_b.html, ") for said in client.notifications))
+def test_the_page_arrives_when_it_is_ready():
+    bench = Bench()
+    bench.begin(fake_recording(name="a/b"))
+    until(lambda: bench.downloads)
+    (file,) = bench.downloads
+    assert file.name == "a_b.html"
+    assert b"<title>a/b</title>" in file.content
+    assert any(said.startswith("a_b.html, ") for said in bench.notices)
 
 
-def test_one_at_a_time_which_goes_on_when_its_recording_is_left_and_ends_with_the_client(client):
+def test_one_at_a_time_which_goes_on_when_its_recording_is_left_and_ends_with_the_client():
     recording, waiting, go_on = fake_recording(), threading.Event(), threading.Event()
     cloud = recording.cloud
 
     def slow(k, max_range=4.0):
         waiting.set()
-        assert go_on.wait(30)
+        assert go_on.wait(10)
         return cloud(k, max_range)
 
     recording.cloud = slow
-    panel = OfflinePagePanel(desk(client))
-    library = begin(panel, recording)
-    assert waiting.wait(30)
+    bench = Bench()
+    library = bench.begin(recording)
+    assert waiting.wait(10)
     with pytest.raises(InputError, match="being made already"):
-        begin(panel)
-    panel.close()
+        bench.begin()
     assert library.users == 1
-    panel.leave()
+    bench.tasks.end()
     go_on.set()
     until(lambda: library.users == 0)
-    assert not client.downloads
-    panel = OfflinePagePanel(desk(client))
-    library = begin(panel)
-    panel.close()
-    until(lambda: client.downloads)
-    until(lambda: library.users == 0)
+    until(lambda: not bench.tasks.states)
+    assert not bench.downloads
+    bench = Bench()
+    library = bench.begin()
+    until(lambda: bench.downloads)
+    assert library.users == 0
 
 
-def test_a_broken_recording_is_said_and_the_next_page_can_be_made(client):
+def test_a_broken_recording_is_said_and_the_next_page_can_be_made():
     recording = fake_recording()
 
     def broken(k, max_range=4.0):
         raise RecordingError("fake.mcap is broken at frame 3.")
 
     recording.cloud = broken
-    panel = OfflinePagePanel(desk(client))
-    library = begin(panel, recording)
-    until(lambda: "fake.mcap is broken at frame 3." in client.notifications)
-    until(lambda: library.users == 0)
-    until(lambda: panel._thread is not None and not panel._thread.is_alive())
-    begin(panel)
-    until(lambda: client.downloads)
+    bench = Bench()
+    library = bench.begin(recording)
+    until(lambda: "fake.mcap is broken at frame 3." in bench.notices)
+    assert library.users == 0
+    until(lambda: not bench.tasks.states)
+    bench.begin()
+    until(lambda: bench.downloads)

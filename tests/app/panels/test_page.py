@@ -1,11 +1,11 @@
 from collections import Counter
 
 from app.panels.page import Page
-from tests.app.fake_session import desk
+from tests.app.fake_session import context
 
 
 def test_no_two_commands_share_a_key_or_a_name(client):
-    Page(desk(client))
+    Page(context(client))
     commands = list(client.gui._command_handle_from_uuid.values())
     keys = Counter((c.modifier, c.hotkey) for c in commands if c.hotkey)
     assert len(keys) > 15

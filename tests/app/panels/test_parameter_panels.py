@@ -135,7 +135,7 @@ def test_a_bad_name_is_told_and_the_session_goes_on(session, client):
 
 
 def test_a_file_is_opened_also_beyond_the_sliders(session, client):
-    session._mailbox.post(OpenParameters("p.json", json.dumps({"n_min": 900, "n": 3}).encode()))
+    session._queue.post(OpenParameters("p.json", json.dumps({"n_min": 900, "n": 3}).encode()))
     until(shows(client, "N_min", 900))
     assert client.control("N_min").max == 900
     assert client.control("n").value == 3
@@ -151,6 +151,6 @@ def test_a_file_is_opened_also_beyond_the_sliders(session, client):
     ],
 )
 def test_a_file_that_cannot_be_used_is_told(session, client, content, sentence):
-    session._mailbox.post(OpenParameters("p.json", content))
+    session._queue.post(OpenParameters("p.json", content))
     until(lambda: any(sentence in n for n in client.notifications))
     assert client.control("γ").value == 0.7

@@ -13,7 +13,7 @@ from app.server.session import Session, Shared
 from app.session.reload import Reloads
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
-from tests.app.fake_session import desk
+from tests.app.fake_session import context
 from tests.app.waiting import until
 
 
@@ -102,7 +102,7 @@ def test_a_loop_stays_within_its_range(session, client):
 def test_of_one_frame_there_is_no_range(client):
     single = fake_recording()
     single.stamps = single.stamps[:1]
-    panel = PlaybackPanel(desk(client))
+    panel = PlaybackPanel(context(client))
     panel.open(fake_opened())
     assert client.control("Range").visible
     panel.open(fake_opened(single))

@@ -1,5 +1,7 @@
+import itertools
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,37 +10,43 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import evaluate
 from app.analysis.survey import Survey
+from app.analysis.surveys import Surveys
 from app.panels.plot_list import summary
-from app.panels.plots import PlotsPanel, SavePlots, ShowSurvey
-from app.panels.time_field import SeekTime, TimeField
+from app.panels.plots import PlotsPanel, SavePlots
+from app.panels.time_field import SeekTime
 from app.scene.colours import css
 from app.scene.settings import ViewSettings
+from app.session.followed_survey import FollowedSurvey
+from app.session.snapshot import Sought
 from estimator import Parameters
 from recordings import PairTruth
 from tests.app.analysis.test_survey import filled
-from tests.app.analysis.test_surveys import until
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
-from tests.app.fake_session import desk, shown
+from tests.app.fake_session import context, snapshot
+from tests.app.waiting import until
 
 
 class Bench:
-    """A panel that shows a recording, and the wishes that it posts."""
+    """A panel that shows a recording with its survey, and the commands that it posts."""
 
     def __init__(self, client, recording=None):
-        self.client, self.wishes = client, []
-        self.panel = PlotsPanel(desk(client, self.wishes.append))
+        self.client, self.posted, self.news = client, [], []
+        self.survey = FollowedSurvey(Surveys(Estimates()), self.news.append)
+        self.panel = PlotsPanel(context(client, self.posted.append))
         self.opened = fake_opened(recording)
         self.panel.open(self.opened)
-        self.panel.show(shown(self.opened))
+        self.show()
 
-    def fulfil(self):
-        for wish in self.wishes:
-            if isinstance(wish, ShowSurvey):
-                wish.fulfil(self)  # pyright: ignore[reportArgumentType]
+    def show(self, **changes):
+        self.survey.follow(self.opened, changes.get("parameters", Parameters()))
+        known = {"survey": self.survey.survey, "survey_revision": self.survey.revision}
+        self.panel.show(snapshot(**({"opened": self.opened} | known | changes)))
 
-    def fill(self):
-        until(lambda: self.wishes and self.wishes[-1].survey.complete)
-        self.fulfil()
+    def fill(self, **changes):
+        until(lambda: self.news and self.news[-1].survey.complete)
+        for news in self.news:
+            self.survey.receive(news)
+        self.show(**changes)
 
     @property
     def plots(self) -> Any:
@@ -61,10 +69,10 @@ def test_the_whole_recording_is_plotted_without_being_asked(client):
 def test_the_values_at_the_frame_are_said_and_a_line_is_drawn_there(client):
     bench = Bench(client)
     bench.fill()
-    bench.panel.show(shown(bench.opened, frame=13))
+    bench.show(frame=13)
     assert f"left: {100 * 13 / (FRAMES - 1):.3f}%" in client.text()
     assert ">100<" in client.text()
-    bench.panel.show(shown(bench.opened, frame=3))
+    bench.show(frame=3)
     assert ">100<" not in client.text()
 
 
@@ -72,7 +80,7 @@ def test_moving_on_draws_no_plot_again(client):
     bench = Bench(client)
     bench.fill()
     client.take_sent()
-    bench.panel.show(shown(bench.opened, frame=21))
+    bench.show(frame=21)
     size = sum(len(str(message)) for message in client.take_sent())
     assert 0 < size < 8000
 
@@ -80,13 +88,14 @@ def test_moving_on_draws_no_plot_again(client):
 def test_what_was_left_is_not_plotted(client):
     bench = Bench(client)
     bench.fill()
-    late = list(bench.wishes)
-    bench.wishes.clear()
-    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
-    for wish in late:
-        wish.fulfil(bench)
-    assert bench.panel.survey is None
-    bench.fill()
+    late = list(bench.news)
+    bench.news.clear()
+    still = Parameters(delta=0.5)
+    bench.show(parameters=still)
+    for news in late:
+        bench.survey.receive(news)
+    assert bench.survey.survey is None
+    bench.fill(parameters=still)
     assert (bench.plots[0].data[1][8:] == 0).all()
 
 
@@ -119,12 +128,11 @@ def test_the_last_plot_has_the_times_below_it(client):
 
 def test_the_first_and_the_last_numbers_build_every_plot_anew(client):
     bench = Bench(client)
-    asked: Any = bench.panel._asked
-    survey = Survey(bench.opened.recording, Parameters())
+    survey, revisions = Survey(bench.opened.recording, Parameters()), itertools.count(1)
 
     def built():
         client.take_sent()
-        bench.panel.plot(asked, survey)
+        bench.show(survey=survey, survey_revision=next(revisions))
         return sum("scales" in getattr(m, "updates", {}) for m in client.take_sent())
 
     assert [built(), built()] == [len(bench.plots), 0]
@@ -132,79 +140,87 @@ def test_the_first_and_the_last_numbers_build_every_plot_anew(client):
     assert built() == len(bench.plots)
 
 
-def test_a_time_leads_to_the_nearest_frame(client):
+def test_a_time_leads_to_the_nearest_frame():
     class Workbench:
         opened = fake_opened()
-        frame = None
+        frame = sought = None
 
         def seek(self, frame):
             self.frame = frame
 
     bench: Any = Workbench()
-    field = TimeField(desk(client))
-    SeekTime(field, 1.0).fulfil(bench)
+    SeekTime(1.0).apply(bench)
     assert bench.frame == 15
-    SeekTime(field, 1e9).fulfil(bench)
+    assert bench.sought == Sought(1.0, 15)
+    SeekTime(1e9).apply(bench)
     assert bench.frame == FRAMES - 1
 
 
 def test_the_number_field_posts_a_time(client):
     bench = Bench(client)
     client.change("Go to [s]", 1.25)
-    until(lambda: SeekTime(bench.panel._time, 1.25) in bench.wishes)
+    until(lambda: SeekTime(1.25) in bench.posted)
 
 
 def test_the_number_field_follows_the_frame_and_leaves_alone_what_is_typed(client):
     bench = Bench(client)
     field, at = client.control("Go to [s]"), lambda frame: round(PERIOD * frame, 3)
-    bench.panel.show(shown(bench.opened, frame=24))
+    bench.show(frame=24)
     assert field.value == at(24)
     client.change("Go to [s]", 1.25)
     until(lambda: bench.panel._time._typed == 1.25)
-    bench.panel.show(shown(bench.opened, frame=24))  # before the session has gone there
+    bench.show(frame=24)  # before the session has gone there
     assert field.value == 1.25
-    bench.panel._time.arrived(1.2, 18)  # where the first letters lead
-    bench.panel.show(shown(bench.opened, frame=18))
+    first = Sought(1.2, 18)  # to where the first letters lead
+    bench.show(frame=18, sought=first)
     assert field.value == 1.25
-    bench.panel._time.arrived(1.25, 19)
-    bench.panel.show(shown(bench.opened, frame=19))
+    bench.show(frame=18, sought=first)
     assert field.value == 1.25
-    playing = replace(shown(bench.opened, frame=20), playing=True)
-    bench.panel.show(playing)  # a moment after the last letter
+    last = Sought(1.25, 19)
+    bench.show(frame=19, sought=last)
+    assert field.value == 1.25
+    bench.show(frame=20, sought=last, playing=True)  # a moment after the last letter
     assert field.value == 1.25
     bench.panel._time._typed_at -= 10
-    bench.panel.show(playing)
+    bench.show(frame=20, sought=last, playing=True)
     assert field.value == at(20)
-    bench.panel.show(shown(bench.opened, frame=19))  # again, and nobody is typing
+    bench.show(frame=19, sought=last)  # again, with no typing
     assert field.value == at(19)
-    bench.panel.show(shown(bench.opened, frame=FRAMES - 1))
+    client.change("Go to [s]", 1.26)
+    until(lambda: bench.panel._time._typed == 1.26)
+    bench.show(frame=19, sought=Sought(1.26, 19))
+    assert field.value == 1.26
+    client.change("Go to [s]", 1.25)
+    until(lambda: bench.panel._time._typed == 1.25)
+    bench.show(frame=19, sought=Sought(1.25, 19))
+    assert bench.panel._time._typed is None
+    bench.show(frame=FRAMES - 1)
     assert field.value <= field.max
 
 
 def test_points_of_what_was_left_are_pale_until_there_are_others(client):
     bench = Bench(client)
     bench.fill()
-    bench.panel.show(shown(bench.opened))
+    bench.show()
     assert "opacity: 0.25" not in client.text()
-    bench.wishes.clear()
-    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
+    bench.news.clear()
+    bench.show(parameters=Parameters(delta=0.5))
     assert "opacity: 0.25" in client.text()
-    bench.fill()
-    bench.panel.show(shown(bench.opened, parameters=Parameters(delta=0.5)))
+    bench.fill(parameters=Parameters(delta=0.5))
     assert "opacity: 0.25" not in client.text()
 
 
 def test_the_file_is_that_of_what_is_plotted(client):
     bench = Bench(client)
     bench.fill()
-    bench.wishes.clear()
     client.press("Save as CSV")
-    until(lambda: bench.wishes)
-    assert bench.wishes == [SavePlots(bench.panel)]
-    bench.wishes[0].fulfil(bench)
-    name, content = client.downloads[0]
-    assert name == "fake_plots.csv"
-    assert len(content.decode().splitlines()) == FRAMES + 2
+    until(lambda: bench.posted)
+    assert bench.posted == [SavePlots()]
+    workbench: Any = SimpleNamespace(opened=bench.opened, survey=bench.survey, outbox=[])
+    bench.posted[0].apply(workbench)
+    (file,) = workbench.outbox
+    assert file.name == "fake_plots.csv"
+    assert len(file.content.decode().splitlines()) == FRAMES + 2
 
 
 def test_the_summary_says_what_evaluate_says():
@@ -247,8 +263,7 @@ def test_axes_end_at_round_numbers(client, largest, top):
     bench = Bench(client)
     survey = Survey(fake_recording(), Parameters())
     survey.angle_deg[10] = largest
-    asked: Any = bench.panel._asked
-    bench.panel.plot(asked, survey)
+    bench.show(survey=survey, survey_revision=1)
     assert bench.plots[2].scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
 
 
@@ -258,7 +273,7 @@ def test_plots_have_the_colours_of_the_scene(client):
     light, bright = css(ViewSettings().palette.flow), css(dark.palette.flow)
     assert light != bright
     assert bench.plots[0].series[1]["stroke"] == light
-    bench.panel.show(replace(shown(bench.opened), settings=dark))
+    bench.show(settings=dark)
     assert bench.plots[0].series[1]["stroke"] == bright
     assert bench.plots[0].series[1]["points"]["fill"] == bright
     assert f"background: {bright}" in client.text()

@@ -1,11 +1,9 @@
 from dataclasses import replace
 
-import pytest
-
 from app.panels.recordings import RecordingsPanel, describe
-from recordings import Provenance, RecordingError
+from recordings import Provenance
 from tests.app.fake_recordings import fake_opened, fake_recording
-from tests.app.fake_session import desk
+from tests.app.fake_session import context, status
 
 
 def test_a_measured_recording_is_described_by_its_size():
@@ -23,17 +21,18 @@ def test_a_simulated_recording_says_so_first():
 
 
 def test_what_is_being_opened_is_said_and_what_stays_open_after_a_bad_one(client):
-    panel, opened = RecordingsPanel(desk(client)), fake_opened()
+    panel = RecordingsPanel(context(client))
     assert "Opening …" in client.text()
-    with panel.opening("a<b", None):
-        assert "Opening a&lt;b …" in client.text()
-    panel.open(opened)
+    panel.announce(status(opening="a<b"))
+    assert "Opening a&lt;b …" in client.text()
+    panel.announce(status(opened=fake_opened()))
     assert "Opening" not in client.text()
-    with pytest.raises(RecordingError), panel.opening("bad", opened):
-        raise RecordingError("bad is no recording.")
+    panel.announce(status(opening="bad", opened=fake_opened()))
+    assert "Opening bad …" in client.text()
+    panel.announce(status(opened=fake_opened()))
     assert "1 sensor, 40 frames" in client.text()
-    with pytest.raises(RecordingError), panel.opening("bad", None):
-        raise RecordingError("bad is no recording.")
+    panel.announce(status(opening="bad"))
+    panel.announce(status())
     assert "No recording is open." in client.text()
 
 

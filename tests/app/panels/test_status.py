@@ -7,7 +7,7 @@ from app.panels.status import StatusPanel, facts, note_on
 from app.scene.palettes import PAPER, palette
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
-from tests.app.fake_session import desk, shown
+from tests.app.fake_session import context, snapshot
 
 
 def said(pair):
@@ -94,17 +94,17 @@ def test_without_truth_it_is_said_how_there_would_be_some():
 
 
 def test_simulated_data_are_called_so(client):
-    panel = StatusPanel(desk(client))
+    panel = StatusPanel(context(client))
     fake = fake_recording()
     for simulated in (True, False):
         fake.simulated = simulated
-        panel.show(shown(fake_opened(fake)))
+        panel.show(snapshot(opened=fake_opened(fake)))
         assert ("simulated" in client.text()) == simulated
 
 
 def test_a_frame_that_cannot_be_shown_is_said_and_not_the_last_one_again(client):
-    panel = StatusPanel(desk(client))
-    panel.show(shown(fake_opened()))
-    panel.show(replace(shown(fake_opened()), pair=None))
+    panel = StatusPanel(context(client))
+    panel.show(snapshot())
+    panel.show(snapshot(pair=None))
     assert "This frame cannot be shown." in client.text()
     assert "Moving" not in client.text()

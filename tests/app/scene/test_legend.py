@@ -18,7 +18,7 @@ from app.scene.settings import (
 )
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
-from tests.app.fake_session import desk, shown
+from tests.app.fake_session import context, snapshot
 
 
 @pytest.fixture(scope="module")
@@ -84,8 +84,8 @@ def test_nothing_drawn_needs_no_legend():
 
 
 def test_the_panel_shows_what_the_session_says(client):
-    panel = LegendPanel(desk(client))
-    state = shown(fake_opened())
+    panel = LegendPanel(context(client))
+    state = snapshot()
     panel.show(type(state)(**{**vars(state), "legend": Legend((Mark((1, 2, 3), "a < b"),))}))
     assert "a &lt; b" in client.legend
     assert "#010203" in client.legend

@@ -14,6 +14,8 @@ from app.panels.page import Page
 from app.scene.scene import Scene
 from app.server.server import Server
 from app.server.session import Session, Shared
+from app.session.followed_survey import FollowedSurvey
+from app.session.queue import CommandQueue
 from app.session.reload import Reloads
 from app.session.workbench import Workbench
 from estimator import Parameters
@@ -22,7 +24,10 @@ from tests.app.fake_recordings import fake_recording
 from tests.app.waiting import until
 from tests.app.wire_client import WireClient
 
-OF_ONE_CLIENT = (Session, Workbench, Page, Scene, viser.ClientHandle, viser.SceneNodeHandle)
+OF_ONE_CLIENT = (
+    *(Session, CommandQueue, Workbench, FollowedSurvey, Page, Scene),
+    *(viser.ClientHandle, viser.SceneNodeHandle),
+)
 
 # Results are shared and bounded; for a while they become more. What the last session left is kept
 # for its tab, with a comparison or, where the client left before it was made, without one.
@@ -109,7 +114,7 @@ def visit(server: Server) -> list[weakref.ref]:
 def test_a_closed_tab_frees_its_session_scene_handles_and_threads(server, recordings):
     found = visit(server)
     until(lambda: not session_threads())
-    until(lambda: gc.collect() >= 0 and not any(ref() for ref in found), timeout=30)
+    until(lambda: gc.collect() >= 0 and not any(ref() for ref in found))
     assert recordings
     assert all(recording.closed for recording in recordings)
 

@@ -1,3 +1,4 @@
+import logging
 import threading
 import time
 from dataclasses import replace
@@ -151,7 +152,7 @@ def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
 def test_only_what_is_listed_is_opened(session, client, folder):
     (folder / "later.mcap").touch()
     for label in ("/etc/passwd", "../a", "later"):
-        session._mailbox.post(OpenRecording(label))
+        session._queue.post(OpenRecording(label))
         client.change("Frame", 20 + len(label))
         until(lambda label=label: f"Frame {20 + len(label)} of" in client.text())
     assert [e.label for e in session._shared.library._shared] == ["a"]
@@ -166,6 +167,39 @@ def test_an_error_of_the_estimator_is_told_and_the_clouds_are_shown(session, cli
     runs.error = None
     client.change("Frame", 31)
     until(lambda: arrow_count(client) == 100)
+
+
+def test_an_unexpected_error_is_logged_once_with_its_traceback(session, client, runs, caplog):
+    runs.error = RuntimeError("ICP has had enough")
+    with caplog.at_level(logging.ERROR, logger="app.server.session"):
+        for frame in (30, 31):
+            client.change("Frame", frame)
+            until(lambda frame=frame: f"Frame {frame} of" in client.text())
+    assert len(caplog.records) == 1
+    assert "RuntimeError: ICP has had enough" in caplog.text
+    assert "Traceback" in caplog.text
+
+
+def test_what_is_being_opened_is_said_meanwhile(client, shared, folder, runs):
+    opening, go_on = threading.Event(), threading.Event()
+
+    def opener(path):
+        if path.stem == "b":
+            opening.set()
+            assert go_on.wait(10)
+        return fake_recording(name=path.stem)
+
+    session = Session(client, replace(shared, library=Library([folder], opener)))
+    until(lambda: "Moving" in client.text())
+    client.change("Recording", "b")
+    assert opening.wait(10)
+    until(lambda: "Opening b …" in client.text())
+    assert client.control("Recording").value == "b"
+    go_on.set()
+    until(lambda: "Opening" not in client.text())
+    assert "1 sensor, 40 frames" in client.text()
+    session.close()
+    session.join(10)
 
 
 def test_playback_goes_at_the_recordings_pace_and_stops_at_the_end(session, client):

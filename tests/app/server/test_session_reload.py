@@ -9,7 +9,7 @@ from viser._messages import RunJavascriptMessage
 from app.scene.camera import Camera
 from app.scene.stage import FIXED
 from app.server.session import Session
-from app.session.links import Place, from_token
+from app.session.links import SavedSession, from_token
 from estimator import Parameters
 from tests.app.fake_client import FakeClient
 from tests.app.waiting import until
@@ -107,7 +107,7 @@ def arrive(client, shared, token):
 
 def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, runs):
     camera = Camera((1.0, 2.0, 3.0), (0.5, 0.25, 0.0), 0.7)
-    arrive(client, shared, Place("b", 31, Parameters(n=5, delta=0.01), camera).token())
+    arrive(client, shared, SavedSession("b", 31, Parameters(n=5, delta=0.01), camera).token())
     assert client.control("Recording").value == "b"
     assert client.control("Frame").value == 31
     assert set(runs.parameters) == {Parameters(n=5, delta=0.01)}
@@ -127,7 +127,7 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
     [
         ("nonsense", "The link is damaged"),
         (
-            Place("zz", 3, Parameters(n=5, delta=0.01)).token(),
+            SavedSession("zz", 3, Parameters(n=5, delta=0.01)).token(),
             "The recording zz is not among those",
         ),
     ],
@@ -148,9 +148,9 @@ def test_the_link_that_is_copied_leads_here(session, client):
     until(lambda: client.notifications)
     scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
     (token,) = re.findall(r"\?link=([\w-]+)`", "".join(scripts))
-    place = from_token(token)
-    assert (place.label, place.frame, place.parameters.delta) == ("a", 30, 0.3)
-    assert place.camera == session_camera(client)
+    saved = from_token(token)
+    assert (saved.label, saved.frame, saved.parameters.delta) == ("a", 30, 0.3)
+    assert saved.camera == session_camera(client)
 
 
 def session_camera(client):

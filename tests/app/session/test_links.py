@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from app.errors import InputError
 from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
-from app.session.links import Place, from_token
+from app.session.links import SavedSession, from_token
 from estimator import Parameters
 
 coordinate = st.floats(-100, 100).map(lambda x: round(x, 4))
@@ -30,16 +30,16 @@ parameters = st.builds(
 
 
 @given(st.text(max_size=40), st.integers(0, 10**6), parameters, st.none() | cameras)
-def test_a_token_comes_back_as_the_same_place(label, frame, parameters, camera):
-    place = Place(label, frame, parameters, camera)
-    token = place.token()
+def test_a_token_comes_back_as_the_same_session(label, frame, parameters, camera):
+    saved = SavedSession(label, frame, parameters, camera)
+    token = saved.token()
     assert re.fullmatch(r"[\w-]+", token, re.ASCII)
-    assert from_token(token) == place
+    assert from_token(token) == saved
 
 
 def test_settings_are_everybodys_own():
-    place = Place("a", 3, Parameters(), settings=ViewSettings(dark=True))
-    assert from_token(place.token()).settings == ViewSettings()
+    saved = SavedSession("a", 3, Parameters(), settings=ViewSettings(dark=True))
+    assert from_token(saved.token()).settings == ViewSettings()
 
 
 def made(**changes):

@@ -1,8 +1,8 @@
-from app.session.links import Place
+from app.session.links import SavedSession
 from app.session.reload import Reloads
 from estimator import Parameters
 
-LEFT = Place("a", 3, Parameters(n=2))
+LEFT = SavedSession("a", 3, Parameters(n=2))
 
 
 def test_what_was_left_is_handed_out_once():

@@ -1,19 +1,19 @@
-"""What a person can wish of playback, and the commands and keys for it."""
+"""Commands of playback, and the command palette's entries and keys for them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from time import monotonic
+from typing import Any, Self
 
 import viser
 from viser import Icon
 
 from app.analysis.timeline import neighbour
 from app.session.clock import SPEEDS
-from app.session.commands import LatestWins, TogglePlay, seek, step
-from app.session.queue import Wish
-
-if TYPE_CHECKING:
-    from app.session.workbench import Workbench
+from app.session.command import Command, LatestWins
+from app.session.commands import TogglePlay, seek, step
+from app.session.outbox import Notice
+from app.session.workbench import Workbench
 
 STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
 """{what a button says: frames to go}."""
@@ -27,13 +27,13 @@ class ChangePlayback:
 
     values: Mapping[str, Any]
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both changes, the later value of each field."""
         return type(self)({**earlier.values, **self.values})
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Take them."""
-        workbench.change_playback(dict(self.values))
+        workbench.clock.change(dict(self.values), workbench.frame, monotonic())
 
 
 @dataclass(frozen=True)
@@ -42,18 +42,18 @@ class JumpToMotion(LatestWins):
 
     direction: int
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Go there, or say that there is no such place."""
-        timeline = workbench.timeline()
-        if timeline is None or workbench.opened is None:
+        if workbench.opened is None:
             return
+        timeline = workbench.timeline.of(workbench.opened, workbench.tuning.parameters)
         frame = neighbour(timeline.moving, workbench.frame, self.direction)
         if frame is None:
             where = "after" if self.direction > 0 else "before"
             known = workbench.opened.recording.has_truth
             far = "" if known else " in the frames estimated so far"
             said = f"Nothing begins to move {where} this frame{far}."
-            workbench.page.say("Motion", said)
+            workbench.outbox.append(Notice("Motion", said, replaces=True))
         else:
             workbench.seek(frame)
 
@@ -64,42 +64,44 @@ class ChangeSpeed:
 
     steps: int
 
-    def after(self, earlier: Self) -> Self:
+    def merged_with(self, earlier: Self) -> Self:
         """Both changes."""
         return type(self)(earlier.steps + self.steps)
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Play so."""
-        index = SPEEDS.index(workbench.playback.speed) + self.steps
+        clock = workbench.clock
+        index = SPEEDS.index(clock.playback.speed) + self.steps
         speed = SPEEDS[min(max(index, 0), len(SPEEDS) - 1)]
-        workbench.change_playback({"speed": speed})
+        clock.change({"speed": speed}, workbench.frame, monotonic())
 
 
 @dataclass(frozen=True)
 class ToggleLoop(LatestWins):
     """Loop where it does not, and the other way round."""
 
-    def fulfil(self, workbench: "Workbench") -> None:
+    def apply(self, workbench: Workbench) -> None:
         """Play so."""
-        workbench.change_playback({"loop": not workbench.playback.loop})
+        clock = workbench.clock
+        clock.change({"loop": not clock.playback.loop}, workbench.frame, monotonic())
 
 
 def speed_name(speed: float) -> str:
-    """How a speed is written."""
+    """Speed as the page writes it."""
     return f"{speed:g}x"
 
 
 def speed_from(name: str) -> float:
-    """The speed that is written so."""
+    """Speed from what the page writes."""
     return float(name.removesuffix("x"))
 
 
-def add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
+def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     """Add all of it to the command palette, with keys."""
 
     def add(
         label: str,
-        wish: Wish,
+        posted: Command,
         key: Any = None,  # noqa: ANN401 (viser's literals)
         modifier: Any = None,  # noqa: ANN401
         icon: Any = None,  # noqa: ANN401
@@ -109,7 +111,7 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Wish], None]) -> None:
         # A coroutine runs at once, so that keys are taken in their order.
         @command.on_trigger
         async def _(_: viser.CommandEvent) -> None:
-            post(wish)
+            post(posted)
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
     # viser writes the arrows' names as they come; the signs say it better.

@@ -1,0 +1,57 @@
+"""Delivery of messages and of the state of background tasks to the browser."""
+
+from collections.abc import Sequence
+
+import viser
+
+from app.browser.script import copy_link
+from app.session.outbox import Download, LinkToCopy, Message, Notice
+from app.session.tasks import TaskState
+
+
+class Delivery:
+    """Notifications, downloads and links of all panels, in one place.
+
+    Args:
+        client: whose browser gets them.
+    """
+
+    def __init__(self, client: viser.ClientHandle) -> None:
+        self._client = client
+        self._last: dict[str, viser.NotificationHandle] = {}
+        self._tasks: dict[str, viser.NotificationHandle] = {}
+
+    def deliver(self, messages: Sequence[Message]) -> None:
+        """Hand messages to the browser, in their order."""
+        for message in messages:
+            match message:
+                case Notice():
+                    self._notify(message)
+                case Download(name, content):
+                    self._client.send_file_download(name, content, save_immediately=True)
+                case LinkToCopy(token):
+                    copy_link(self._client, token)
+
+    def show_tasks(self, tasks: Sequence[TaskState]) -> None:
+        """Show that these tasks are running, and no others."""
+        for title in self._tasks.keys() - {task.title for task in tasks}:
+            self._tasks.pop(title).remove()
+        for task in tasks:
+            if (loading := self._tasks.get(task.title)) is None:
+                self._tasks[task.title] = self._client.add_notification(
+                    task.title, task.text, loading=True, with_close_button=False
+                )
+            elif loading.body != task.text:
+                loading.body = task.text
+
+    def _notify(self, notice: Notice) -> None:
+        if notice.replaces and (before := self._last.pop(notice.title, None)) is not None:
+            before.remove()
+        handle = self._client.add_notification(
+            notice.title,
+            notice.sentence,
+            color=notice.colour,
+            auto_close_seconds=notice.seconds,
+        )
+        if notice.replaces:
+            self._last[notice.title] = handle

@@ -1,0 +1,105 @@
+"""Parameters that a person edits, those they are compared with, and entries that are refused."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from app.analysis.comparison import Comparison
+from app.session.history import ParameterHistories
+from estimator import ParameterError, Parameters
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Entry of a value that is not taken.
+
+    Attributes:
+        reason: a sentence.
+        put_back: whether the browser has replaced it since, by the end of a slider: the control is
+            to show again what is in use, and the reason stays readable for a while.
+    """
+
+    reason: str
+    put_back: bool = False
+
+
+class Tuning:
+    """Parameters, their comparison and their history.
+
+    Args:
+        parameters: to begin with.
+        defaults: to go back to.
+
+    Attributes:
+        parameters: that are edited.
+        comparison: with a second set of parameters, None where there is none.
+        refusals: {parameter: its refused entry}, the last one at the end.
+        revision: grows whenever parameters were set by something else than their own controls.
+    """
+
+    def __init__(self, parameters: Parameters, defaults: Parameters) -> None:
+        self.parameters = parameters
+        self.comparison: Comparison | None = None
+        self.refusals: dict[str, Refusal] = {}
+        self.revision = 0
+        self._defaults = defaults
+        self._histories = ParameterHistories()
+
+    def enter(self, values: Mapping[str, Any], at_end: Iterable[str], now: float) -> None:
+        """Take values of controls, {parameter: value}, or refuse all of them.
+
+        When a slider's field loses the focus, the browser puts what was refused to the nearest
+        value that the slider offers. That is no entry of the person's: nothing is changed by it.
+
+        Args:
+            values: that were entered.
+            at_end: those of them that are at an end of their slider.
+            now: seconds of any steady clock.
+        """
+        for name in at_end:
+            refusal = self.refusals.get(name)
+            if refusal is not None and not refusal.put_back:
+                self.refusals[name] = replace(refusal, put_back=True)
+                values = {other: value for other, value in values.items() if other != name}
+        if not values:
+            return
+        try:
+            after = replace(self.parameters, **values)
+        except ParameterError as error:
+            for name in values:
+                self.refusals.pop(name, None)
+                self.refusals[name] = Refusal(str(error))
+            return
+        self._histories.of(self.comparison).note(self.parameters, after, now)
+        self.parameters = after
+        self.refusals.clear()
+
+    def set(self, parameters: Parameters) -> None:
+        """Take other parameters, as one change."""
+        self._histories.of(self.comparison).note(self.parameters, parameters, None)
+        self._show(parameters)
+
+    def reset(self, names: Iterable[str]) -> None:
+        """Put parameters back to the defaults."""
+        self.set(
+            replace(self.parameters, **{name: getattr(self._defaults, name) for name in names})
+        )
+
+    def undo(self, changes: int) -> None:
+        """Undo this many changes, or redo where it is negative."""
+        history, parameters = self._histories.of(self.comparison), self.parameters
+        go = history.undo if changes > 0 else history.redo
+        for _ in range(abs(changes)):
+            parameters = go(parameters) or parameters
+        self._show(parameters)
+
+    def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
+        """Compare otherwise, or not at all, and edit these parameters."""
+        self._histories.compare(self.comparison, self.parameters, comparison, edited)
+        self.comparison = comparison
+        self._show(edited)
+
+    def _show(self, parameters: Parameters) -> None:
+        self.parameters = parameters
+        self.refusals.clear()
+        self.revision += 1

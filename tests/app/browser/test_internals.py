@@ -1,0 +1,149 @@
+"""Canaries: each says in words what an upgrade of viser or websockets has changed."""
+
+import inspect
+import logging
+import re
+import threading
+
+import pytest
+import viser
+import viser._messages
+import viser.infra
+import websockets.asyncio.server as websocket_server
+
+from app.browser import internals
+from app.browser.guarded_server import GuardedServer
+from tests.app.browser.viser_page import page, scripts_and_styles
+
+INTERNALS = "app/browser/internals.py"
+
+
+def in_page(*patterns: str, why: str) -> None:
+    """Fail with a sentence where viser's page has nothing of one of these patterns any more."""
+    missing = [pattern for pattern in patterns if not re.search(pattern, scripts_and_styles())]
+    assert not missing, f"viser's page has no {missing} any more; {why} ({INTERNALS})."
+
+
+def test_a_control_has_the_id_of_its_element(client):
+    control = client.gui.add_number("k", 1.0)
+    found = internals.element_id(control)
+    assert found in client.gui._gui_input_handle_from_uuid, (
+        f"a control's `_impl.uuid` is not its id any more: `element_id` of {INTERNALS} needs it"
+    )
+
+
+def test_actions_run_in_the_event_loop_of_a_control(client):
+    control, ran, threads = client.gui.add_number("k", 1.0), threading.Event(), []
+
+    def action():
+        threads.append(threading.current_thread())
+        ran.set()
+
+    internals.call_in_event_loop(control, action)
+    assert ran.wait(10), f"`call_in_event_loop` of {INTERNALS} runs nothing any more"
+    called = threading.Event()
+
+    @control.on_update
+    async def _(event):
+        threads.append(threading.current_thread())
+        called.set()
+
+    client.change("k", 2.0)
+    assert called.wait(10)
+    assert threads[0] is threads[1], (
+        f"viser calls back in another thread than `call_in_event_loop` of {INTERNALS} runs in"
+    )
+
+
+def test_a_script_is_sent_to_the_page(client):
+    client.take_sent()
+    internals.run_script(client, "1 + 1")
+    (message,) = client.take_sent()
+    assert message == viser._messages.RunJavascriptMessage(source="1 + 1")
+    in_page("RunJavascriptMessage", why="`run_script` runs nothing")
+
+
+def test_viser_serves_with_what_is_guarded():
+    server = inspect.getsource(viser.infra.WebsockServer)
+    for part in ("websockets.asyncio.server.serve(", "process_request="):
+        assert part in server, (
+            f"viser does not serve by {part!r} any more: `guarding_requests` of {INTERNALS} "
+            "guards nothing, and foreign pages are let in"
+        )
+    before = websocket_server.serve
+    with internals.guarding_requests(lambda _: None):
+        assert websocket_server.serve is not before
+    assert websocket_server.serve is before
+
+
+def test_the_canvas_of_the_scene_is_found():
+    assert internals.SCENE_CANVAS == "canvas[data-engine]"
+    in_page(r"setAttribute\(`data-engine`", why="the scene's canvas is not found")
+
+
+def test_the_arrow_of_a_closed_folder_is_found():
+    assert internals.FOLDER_ARROW == "svg.tabler-icon-chevron-down"
+    in_page(r"`tabler-icon-\$\{", "`chevron-down`", why="folders are not unfolded")
+
+
+def test_the_input_of_a_number_field_is_found():
+    assert internals.NUMBER_INPUT == "input.mantine-NumberInput-input"
+    in_page(
+        "__staticSelector:`NumberInput`",
+        r"classNamesPrefix:\w+=`mantine`",
+        why="a number that is left empty does not come back",
+    )
+
+
+def test_dropdowns_open_a_list_of_options():
+    assert internals.DROPDOWN == "[aria-haspopup=listbox]"
+    assert internals.DROPDOWN_OPTION == "[role=option]"
+    in_page(
+        *('"aria-haspopup":`listbox`', '"aria-controls":', "role:`option`"),
+        why="clicks choose nothing in dropdowns",
+    )
+
+
+def test_sliders_and_tabs_say_what_they_are():
+    assert internals.SLIDER_OR_TAB == "[role=slider], [role=tab]"
+    in_page("role:`slider`", "role:`tab`", why="arrow keys move playback beside a slider")
+
+
+def test_the_area_and_the_canvas_of_a_plot_are_found():
+    assert (internals.PLOT_AREA, internals.PLOT_CANVAS) == (".u-over", ".uplot canvas")
+    in_page(r"\.u-over\b", r"\.uplot\b", "=`u-over`", "=`uplot`", why="plots take no clicks")
+
+
+def test_the_browsers_storage_is_read_below_a_prefix():
+    prefix = internals.STORAGE_PREFIX
+    in_page(f"`{prefix}`", why="links and reloads find nothing, and pictures have no size")
+
+
+def test_the_title_of_the_page_can_be_replaced():
+    assert page().count(internals.PAGE_TITLE) == 1, (
+        f"viser's page has another title: offline pages keep it (PAGE_TITLE of {INTERNALS})"
+    )
+
+
+def test_the_player_of_an_offline_page_can_be_kept_from_flashing():
+    names = ("__viserMutable", "drainMessageQueue", "messageQueue", "requestRender")
+    assert all(name in internals.NO_FLASH for name in names)
+    in_page(*names, why="offline pages flash where they begin again (NO_FLASH)")
+
+
+def test_the_logger_of_connections_is_that_of_websockets():
+    source = inspect.getsource(websocket_server)
+    assert f'"{internals.CONNECTION_LOGGER}"' in source, (
+        f"websockets logs elsewhere: set CONNECTION_LOGGER of {INTERNALS}, or connections that "
+        "ask for nothing are complained of on the terminal"
+    )
+    GuardedServer("127.0.0.1", 0).stop()
+    assert not logging.getLogger(internals.CONNECTION_LOGGER).isEnabledFor(logging.ERROR)
+
+
+def test_a_message_to_a_client_that_has_gone_is_warned_of_in_these_words(client):
+    buffer = client.server._websock_server._broadcast_buffer
+    buffer.set_done()
+    # Other words are to be set as CLOSED_CONNECTION, or they come up on the terminal.
+    with pytest.warns(UserWarning, match=internals.CLOSED_CONNECTION):
+        buffer.push(viser._messages.RunJavascriptMessage(source="1 + 1"))

@@ -1,0 +1,56 @@
+from typing import Any
+
+from app.analysis.survey import Survey
+from app.session.followed_survey import FollowedSurvey
+from estimator import Parameters
+from tests.app.fake_recordings import fake_opened
+
+
+class Background:
+    """Surveys that are told when the test says so."""
+
+    def __init__(self):
+        self.asked, self.left = [], 0
+
+    def ask(self, who, opened, parameters, tell):
+        self.asked.append((parameters, tell))
+
+    def leave(self, who):
+        self.left += 1
+
+
+def test_what_is_shown_is_asked_for_once_and_its_news_are_counted():
+    background: Any = Background()
+    news: list[Any] = []
+    followed, opened = FollowedSurvey(background, news.append), fake_opened()
+    followed.follow(opened, Parameters())
+    followed.follow(opened, Parameters())
+    ((parameters, tell),) = background.asked
+    assert parameters == Parameters()
+    survey = Survey(opened.recording, Parameters())
+    tell(survey)
+    tell(survey)
+    assert followed.survey is None  # until the session takes the news
+    for one in news:
+        followed.receive(one)
+    assert followed.survey is survey
+    assert followed.revision == 2
+
+
+def test_news_of_what_was_left_are_not_taken():
+    background: Any = Background()
+    news: list[Any] = []
+    followed, opened = FollowedSurvey(background, news.append), fake_opened()
+    followed.follow(opened, Parameters())
+    background.asked[0][1](Survey(opened.recording, Parameters()))
+    followed.follow(opened, Parameters(n=3))
+    followed.receive(news[0])
+    assert followed.survey is None
+    background.asked[1][1](Survey(opened.recording, Parameters(n=3)))
+    followed.receive(news[1])
+    assert followed.survey is not None
+    followed.leave()
+    assert followed.survey is None
+    assert background.left == 1
+    followed.receive(news[1])
+    assert followed.survey is None
