@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from typing import TypeVar
 
-from app.analysis.estimates import Estimates, Pair
+from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
+from app.analysis.pairs import Pair
 from estimator import Parameters
 
 T = TypeVar("T")

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from estimator import ClusterResult
 
 _TOLERANCE = 0.012  # rad between the ray of a click and a point that it still means

@@ -7,8 +7,9 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from app.analysis.cache import Memory
-from app.analysis.estimates import Estimates, Pair
+from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
+from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.errors import UserError
 from estimator import Parameters

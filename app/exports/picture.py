@@ -8,8 +8,8 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
 from app.analysis.library import Opened
+from app.analysis.pairs import Pair
 from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
 from app.exports.captions import caption

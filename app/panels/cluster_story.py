@@ -7,7 +7,7 @@ from html import escape
 from app.panels.tables import Row, framed, signed, table
 from app.scene.colours import css
 from app.scene.palettes import Palette
-from estimator import ClusterResult, IcpRound, Label, Parameters
+from estimator import ClusterResult, IcpRound, Label, Parameters, StoryRow
 
 _SIX_ROWS = "calc(11.55em + 6px)"  # of the table of all clusters, below its head
 
@@ -35,14 +35,14 @@ def cluster_table(
         palette: of the drawing.
         attributes: of a cluster's row, which say what a click on it does.
     """
-    head = ("", "Points", "Fitness", "Displ.", "Label")
+    has_rounds = any(cluster.rounds for cluster in clusters)
+    head = ("", "Points", *(("Fitness", "Displ.") if has_rounds else ()), "Label")
     rows = [
         Row(
             cells=(
                 str(cluster.index),
                 f"{len(cluster.source)} / {len(cluster.target)}",
-                _number(cluster.fitness, "{:.2f}"),
-                _number(1e3 * cluster.mean_displacement, "{:.0f} mm"),
+                *(_last_round(cluster) if has_rounds else ()),
                 f"{swatch(cluster.label, palette)}{cluster.label.name.lower()}",
             ),
             mark=palette.picked if cluster.index == picked else None,
@@ -75,7 +75,7 @@ def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> s
         else ""
     )
     return framed(
-        f"<div>{title}</div>{table(head, rows) if rows else ''}{note}"
+        f"<div>{title}</div>{table(head, rows) if rows else ''}{note}{_own_story(cluster)}"
         f'<div style="margin: 0.3em 0">{swatch(cluster.label, palette)}'
         f"{escape(cluster.reason)}</div>"
     )
@@ -99,6 +99,30 @@ def legend(palette: Palette) -> str:
         f"{labels}<div>Clusters, by their last round; those without a round are left out. "
         f'<span style="color: {css(palette.picked)}">▲</span> the picked one.</div>'
     )
+
+
+def _last_round(cluster: ClusterResult) -> tuple[str, str]:
+    displacement = _number(1e3 * cluster.mean_displacement, "{:.0f} mm")
+    return _number(cluster.fitness, "{:.2f}"), displacement
+
+
+def _own_story(cluster: ClusterResult) -> str:
+    """Table of what the method tells of a cluster by itself, "" where it tells nothing."""
+    if not cluster.story:
+        return ""
+    with_thresholds = any(row.threshold is not None for row in cluster.story)
+    rows = [Row(_story_cells(row)[: 2 + with_thresholds]) for row in cluster.story]
+    return table(("", "Value", "Threshold")[: 2 + with_thresholds], rows)
+
+
+def _story_cells(row: StoryRow) -> tuple[str, str, str]:
+    def written(value: float | str | None) -> str:
+        if value is None:
+            return ""
+        text = value if isinstance(value, str) else f"{value:.4g}"
+        return escape(f"{text} {row.unit}".strip())
+
+    return escape(row.name), written(row.value), written(row.threshold)
 
 
 def _round_cells(

@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import fields
 from html import escape
 
-from app.analysis.estimates import Pair
-from app.panels.tables import Row, signed, table
-from estimator import PARAMETER_INFO, Label, Metrics, Parameters
+from app.analysis.pairs import Pair
+from app.panels.tables import PLOTTED, Row, metric_label, signed, table
+from estimator import METRIC_INFO, PARAMETER_INFO, Label, Parameters, all_methods, values_of
 
 _NAN = float("nan")
 
@@ -16,21 +15,18 @@ def _labelled(label: Label) -> Callable[[Pair], float]:
     return lambda pair: float((pair.flow.label == label).sum()) if pair.flow else _NAN
 
 
-def _error(value: Callable[[Metrics], float]) -> Callable[[Pair], float]:
-    return lambda pair: value(errors) if (errors := pair.errors) else _NAN
+def _error(name: str) -> Callable[[Pair], float]:
+    return lambda pair: getattr(errors, name) if (errors := pair.errors) else _NAN
 
 
 _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
-    "Moving": ("{:.0f}", _labelled(Label.MOVING)),
-    "Stationary": ("{:.0f}", _labelled(Label.STATIONARY)),
-    "Unassigned": ("{:.0f}", _labelled(Label.UNASSIGNED)),
-    "Clusters": ("{:.0f}", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
-    "Angle deviation [°]": ("{:.1f}", _error(lambda errors: errors.angle_deg)),
-    "Vel. error [m/s]": ("{:.3f}", _error(lambda errors: errors.velocity_error)),
-    "Coverage [%]": ("{:.1f}", _error(lambda errors: 100 * errors.coverage)),
-    "Precision [%]": ("{:.1f}", _error(lambda errors: 100 * errors.precision)),
+    "Moving": (".0f", _labelled(Label.MOVING)),
+    "Stationary": (".0f", _labelled(Label.STATIONARY)),
+    "Unassigned": (".0f", _labelled(Label.UNASSIGNED)),
+    "Clusters": (".0f", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
+    **{metric_label(name): (METRIC_INFO[name].form, _error(name)) for name in PLOTTED},
 }
-"""{what is compared: how it is written, and what it is of a pair}; NaN where nothing defines it."""
+"""{quantity: its format, and its value for a pair}; NaN where nothing defines it."""
 
 
 def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
@@ -41,14 +37,21 @@ def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
 
 def changes(of_a: Parameters, of_b: Parameters) -> str:
     """The parameters in which A and B differ, by name."""
+    a, b = values_of(of_a), values_of(of_b)
     said = [
-        f"{PARAMETER_INFO[field.name].symbol or field.name}: {_written(one)} → {_written(two)}"
-        for field in fields(Parameters)
-        if (one := getattr(of_a, field.name)) != (two := getattr(of_b, field.name))
+        f"{label}: {_written(a[name])} → {_written(b[name])}"
+        for name, label in _labels().items()
+        if a[name] != b[name]
     ]
     if not said:
         return "<div>B has the same parameters as A.</div>"
     return f"<div>From A to B: {escape(', '.join(said))}</div>"
+
+
+def _labels() -> dict[str, str]:
+    """{parameter: its symbol, or its name} of all methods."""
+    infos = PARAMETER_INFO | {n: i for method in all_methods() for n, i in method.infos().items()}
+    return {name: info.symbol or name for name, info in infos.items()}
 
 
 def _written(value: object) -> str:
@@ -58,9 +61,9 @@ def _written(value: object) -> str:
 def _cells(name: str, of_a: Pair | None, of_b: Pair | None) -> tuple[str, str, str]:
     form, value = _ROWS[name]
     a, b = (_NAN if pair is None else value(pair) for pair in (of_a, of_b))
-    signed_form = form.replace("{:", "{:+")
+    signed_form = f"+{form}"
     return _number(a, form), _number(b, form), _number(b - a, signed_form)
 
 
 def _number(value: float, form: str) -> str:
-    return "–" if math.isnan(value) else signed(value, form)
+    return "–" if math.isnan(value) else signed(value, f"{{:{form}}}")

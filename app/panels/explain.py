@@ -1,10 +1,11 @@
 """Explanation of a pair: every cluster's outcome, the picked one's story, the thresholds."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import viser
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.analysis.selection import cluster_of
 from app.browser.controls import show_value
 from app.browser.fields import sets, unfold
@@ -119,6 +120,19 @@ class ExplainPanel(Panel):
             # A click on the picked one lets it go.
             lambda cluster: sets(self._list, _NONE if cluster.index == picked else _name(cluster)),
         )
+        self._draw_histograms(clusters, cluster, parameters, palette)
+
+    def _draw_histograms(
+        self,
+        clusters: Sequence[ClusterResult],
+        picked: ClusterResult | None,
+        parameters: Parameters,
+        palette: Palette,
+    ) -> None:
+        """Draw fitness and displacement of all clusters, for methods that have rounds of ICP."""
+        if not any(cluster.rounds for cluster in clusters):
+            self._fitness.content = self._displacement.content = ""
+            return
         self._fitness.content = Histogram(
             title="Fitness",
             values=[(cluster.fitness, cluster.label) for cluster in clusters],
@@ -126,7 +140,7 @@ class ExplainPanel(Panel):
             bars=round(1.0 / _STEP),
             threshold=("γ", parameters.gamma),
             palette=palette,
-            marked=cluster.fitness if cluster else None,
+            marked=picked.fitness if picked else None,
         ).svg()
         moved = [1e3 * cluster.mean_displacement for cluster in clusters]
         self._displacement.content = Histogram(
@@ -136,7 +150,7 @@ class ExplainPanel(Panel):
             bars=_BARS,
             threshold=("δ", 1e3 * parameters.delta),
             palette=palette,
-            marked=1e3 * cluster.mean_displacement if cluster else None,
+            marked=1e3 * picked.mean_displacement if picked else None,
         ).svg() + legend(palette)
 
     def _choices(self, indices: dict[str, int | None], picked: int | None) -> None:

@@ -1,7 +1,7 @@
 """List of the plots, and their looks."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,17 +9,12 @@ import numpy as np
 import viser
 
 from app.analysis.survey import Survey
+from app.panels.tables import PLOTTED, metric_label, page_unit
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
 from estimator import METRIC_INFO
 
 _HEIGHT = 58  # pixels
-_MEANS = {
-    "angle_deg": "Angle dev. [°]",
-    "velocity_error": "Vel. error [m/s]",
-    "coverage": "Coverage",
-    "precision": "Precision",
-}
 _FONT = "10px sans-serif"
 _SMALL = "font-size: 0.75rem; padding: 0 1em; line-height: 1.5"
 
@@ -52,6 +47,7 @@ class PlotSpec:
         lines: that are drawn.
         needs_truth: whether there is nothing to draw without truth.
         top: end of the vertical axis, None to follow the data.
+        signed: whether values may be below 0, which is then in the middle of the axis.
     """
 
     title: str
@@ -60,6 +56,7 @@ class PlotSpec:
     lines: tuple[Line, ...]
     needs_truth: bool
     top: float | None = None
+    signed: bool = False
 
     def heading(
         self, survey: Survey | None, frame: int, colours: Palette, *, has_truth: bool
@@ -78,20 +75,21 @@ class PlotSpec:
         return tuple(_values(survey, line.name) for line in self.lines)
 
     def scales(self, seconds: float, survey: Survey | None) -> dict[str, Any]:
-        """Axes from 0: the whole recording, and a round number above all values."""
+        """Axes: the whole recording; from 0, or both ways, to a round number beyond all values."""
         top = self.top
         if top is None:
-            top = _above(np.concatenate(self.data(survey)) if survey else np.zeros(0))
-        # What lies at either end is drawn whole.
+            top = _above(np.abs(np.concatenate(self.data(survey))) if survey else np.zeros(0))
+        # Values at either end are drawn whole.
+        bottom = -1.06 * top if self.signed else -0.06 * top
         return {
             "x": {"time": False, "range": (0.0, seconds)},
-            "y": {"range": (-0.06 * top, 1.06 * top)},
+            "y": {"range": (bottom, 1.06 * top)},
         }
 
     def series(self, colours: Palette) -> Any:  # noqa: ANN401 (viser's dictionaries)
         """Style of its times and lines: points, since lines would bridge what is undefined."""
         # Of equal values both are seen, the later in front of a larger one.
-        sizes = (4,) if len(self.lines) == 1 else (6, 3)
+        sizes = (4,) if len(self.lines) == 1 else (6, *[3] * (len(self.lines) - 1))
         return (
             {},
             *(
@@ -158,6 +156,27 @@ def _flow(colours: Palette) -> Colour:
     return colours.flow
 
 
+def _metric_plots() -> Iterator[PlotSpec]:
+    """A plot of each error, and one of all shares."""
+    infos = {name: METRIC_INFO[name] for name in PLOTTED}
+    for name, info in infos.items():
+        if info.kind in ("error", "signed"):
+            yield PlotSpec(
+                title=info.title[:1].upper() + info.title[1:],
+                unit=page_unit(info.unit),
+                form=info.form,
+                lines=(Line("", name, _flow),),
+                needs_truth=True,
+                signed=info.kind == "signed",
+            )
+    shares = [name for name, info in infos.items() if info.kind == "share"]
+    lines = (
+        Line(infos[name].short, name, lambda colours, index=index: colours.category(index))
+        for index, name in enumerate(shares)
+    )
+    yield PlotSpec("Shares", "", infos[shares[0]].form, tuple(lines), True, top=1.0)
+
+
 PLOTS = (
     PlotSpec("Moving points", "", ".0f", (Line("", "moving", _flow),), False),
     PlotSpec(
@@ -170,20 +189,9 @@ PLOTS = (
         ),
         False,
     ),
-    PlotSpec("Angle deviation", "°", ".1f", (Line("", "angle_deg", _flow),), True),
-    PlotSpec("Velocity error", "m/s", ".3f", (Line("", "velocity_error", _flow),), True),
-    PlotSpec(
-        "Coverage, precision",
-        "",
-        ".2f",
-        (
-            Line("cov.", "coverage", lambda colours: colours.category(0)),
-            Line("prec.", "precision", lambda colours: colours.category(1)),
-        ),
-        True,
-        top=1.0,
-    ),
+    *_metric_plots(),
 )
+"""All plots, from top to bottom."""
 
 
 def summary(survey: Survey | None, *, has_truth: bool) -> str:
@@ -214,11 +222,11 @@ def _means(survey: Survey) -> str:
         known = not math.isnan(metrics.false_flow)
         return f"{said} Of the points at rest {flagged} % got a flow." if known else said
     cells = []
-    for name, title in _MEANS.items():
+    for name in PLOTTED:
         value = getattr(metrics, name)
         text = METRIC_INFO[name].text(value)
         cells.append(
-            f'<span style="display: flex"><span style="flex: 1">{title}</span>'
+            f'<span style="display: flex"><span style="flex: 1">{metric_label(name)}</span>'
             f'<span style="font-variant-numeric: tabular-nums">{text}</span></span>'
         )
     grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"

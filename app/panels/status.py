@@ -7,12 +7,13 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.panels.panel import Panel, PanelContext
+from app.panels.tables import PLOTTED, metric_title, page_unit
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
 from app.session.snapshot import Snapshot
-from estimator import Label, Parameters, SceneFlow
+from estimator import METRIC_INFO, Label, Parameters, SceneFlow
 
 _NOTHING = "–"
 
@@ -66,8 +67,6 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
     flow, errors = pair.flow, pair.errors
     labels = flow.label if flow else None
     speed = None if pair.object_velocity is None else float(np.linalg.norm(pair.object_velocity))
-    angle = errors.angle_deg if errors else None
-    velocity = errors.velocity_error if errors else None
     return [
         Fact("Source", str(source), colours.source),
         Fact("Target", str(len(pair.target.points)), colours.target),
@@ -78,9 +77,14 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
         Fact("Interval", _number(pair.interval, ".3f", " s")),
         Fact("Estimate", _number(pair.milliseconds, ".1f", " ms")),
         Fact("Truth", _number(speed, ".3f", " m/s"), colours.truth),
-        Fact("Angle deviation", _number(angle, ".1f", "°")),
-        Fact("Vel. error", _number(velocity, ".3f", " m/s")),
+        *(_metric(name, getattr(errors, name) if errors else None) for name in PLOTTED),
     ]
+
+
+def _metric(name: str, value: float | None) -> Fact:
+    unit = page_unit(METRIC_INFO[name].unit)
+    apart = unit if unit in ("", "°") else f" {unit}"
+    return Fact(metric_title(name), _number(value, METRIC_INFO[name].form, apart))
 
 
 def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) -> str:

@@ -4,6 +4,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from app.scene.colours import Colour, css
+from estimator import METRIC_INFO
+
+PLOTTED = tuple(name for name, info in METRIC_INFO.items() if info.plotted)
+"""Metrics that the page shows for every pair."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,23 @@ class Row:
     cells: Sequence[str]
     mark: Colour | None = None
     attributes: str = ""
+
+
+def metric_label(name: str) -> str:
+    """Short title of a metric with its unit, as the page writes it: "Vel. error [m/s]"."""
+    unit = page_unit(METRIC_INFO[name].unit)
+    return metric_title(name) + (f" [{unit}]" if unit else "")
+
+
+def metric_title(name: str) -> str:
+    """Short title of a metric at the beginning of a line."""
+    short = METRIC_INFO[name].short
+    return short[:1].upper() + short[1:]
+
+
+def page_unit(unit: str) -> str:
+    """A unit as the page writes it."""
+    return "°" if unit == "deg" else unit
 
 
 def framed(content: str) -> str:

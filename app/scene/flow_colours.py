@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.scene.colours import Colour
 from app.scene.palettes import Palette, blend
 from app.scene.settings import BY_CLUSTER, BY_DIRECTION, BY_SPEED, ViewSettings

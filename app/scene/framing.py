@@ -3,7 +3,7 @@
 import numpy as np
 import viser
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.lens import aspect_of
 from app.scene.scene import Scene

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.analysis.comparison import A, B
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.scene.colours import Colour
 from app.scene.flow_colours import WHEEL
 from app.scene.settings import (

@@ -5,7 +5,7 @@ import viser
 import viser.transforms as vtf
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.browser.script import canvas_size
 from app.scene.first_view import View
 from app.scene.scene import Scene

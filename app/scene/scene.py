@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.comparison import A, B
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.canvas import Canvas
 from app.scene.clouds_view import (

@@ -6,7 +6,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.analysis.selection import points_of
 from app.scene.palettes import Palette
 from app.scene.stage import FIXED

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from estimator import MOVING_SPEED
 
 _ABOVE = 0.12  # metres from what moves to the truth's arrow

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.estimates import Pair
+from app.analysis.pairs import Pair
 from app.scene.first_view import View, corners, first_view, spread
 from app.scene.settings import ViewSettings
 from estimator import Label

@@ -1,11 +1,10 @@
 """Changes of parameters that can be undone and redone."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, replace
 from typing import Any
 
 from app.analysis.comparison import A, B, Comparison
-from estimator import Parameters
+from estimator import Parameters, changed, values_of
 
 _DRAG = 1.0  # seconds; changes of the same parameter closer together than this are one change
 _SIZE = 200
@@ -53,10 +52,10 @@ class ParameterHistory:
     ) -> Parameters | None:
         if not stack:
             return None
-        changed = replace(parameters, **stack.pop())
-        other.append(_differences(parameters, changed))
+        after = changed(parameters, stack.pop())
+        other.append(_differences(parameters, after))
         self._last = _NOTHING  # what follows is a change of its own
-        return changed
+        return after
 
 
 class ParameterHistories:
@@ -93,5 +92,5 @@ class ParameterHistories:
 
 def _differences(before: Parameters, after: Parameters) -> dict[str, Any]:
     """{name: value before} of the parameters that differ."""
-    new = asdict(after)
-    return {name: value for name, value in asdict(before).items() if value != new[name]}
+    new = values_of(after)
+    return {name: value for name, value in values_of(before).items() if value != new[name]}

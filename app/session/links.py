@@ -1,11 +1,12 @@
 """Saved sessions, which reloads of a page bring back, and links to them."""
 
 import base64
-import binascii
 import json
 import math
-from dataclasses import asdict, dataclass, field
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 from app.analysis.comparison import Comparison
 from app.analysis.parameter_files import from_text
@@ -13,7 +14,7 @@ from app.errors import InputError
 from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
 from app.session.clock import Playback
-from estimator import Parameters
+from estimator import Parameters, to_nested
 
 _LONGEST = 4000  # characters of a link's token
 _FARTHEST = 1e5  # metres
@@ -49,12 +50,12 @@ class SavedSession:
 
         View settings, comparison and playback stay with the person who has set them.
         """
-        defaults = asdict(Parameters())
+        defaults = to_nested(Parameters())
         content: dict[str, Any] = {"recording": self.label, "frame": self.frame}
         content["parameters"] = {
             name: value
-            for name, value in asdict(self.parameters).items()
-            if value != defaults[name]
+            for name, value in to_nested(self.parameters).items()
+            if name not in defaults or value != defaults[name]
         }
         if self.camera:
             numbers = (*self.camera.position, *self.camera.look_at, self.camera.fov)
@@ -73,21 +74,32 @@ def from_token(token: str) -> SavedSession:
         raise InputError(_DAMAGED)
     try:
         text = base64.b64decode(token + "=" * (-len(token) % 4), altchars=b"-_", validate=True)
-        content: Any = json.loads(text)
-        label, frame, parameters = (content[key] for key in ("recording", "frame", "parameters"))
-        camera = _camera(content["camera"]) if "camera" in content else None
-    except (binascii.Error, ValueError, TypeError, KeyError, RecursionError) as error:
+        link = _Link.model_validate_json(text)
+        camera = link.camera and _camera(link.camera)
+    except ValueError as error:  # those of base64 and pydantic, too
         raise InputError(_DAMAGED) from error
-    if not isinstance(label, str) or not isinstance(frame, int) or not isinstance(parameters, dict):
-        raise InputError(_DAMAGED)
-    return SavedSession(label, frame, from_text(json.dumps(parameters), "The link"), camera)
+    parameters = from_text(json.dumps(link.parameters), "The link")
+    return SavedSession(link.recording, link.frame, parameters, camera)
 
 
-def _camera(numbers: list[float]) -> Camera:
-    """A camera from seven numbers; ValueError or TypeError where they are none."""
-    x, y, z, a, b, c, fov = (float(number) for number in numbers)
-    camera = Camera((x, y, z), (a, b, c), fov)
-    reachable = all(abs(number) < _FARTHEST for number in (x, y, z, a, b, c))
-    if not (reachable and 0.01 < fov < 3.0 and math.dist((x, y, z), (a, b, c)) > 1e-4):
+_Metres = Annotated[float, Field(gt=-_FARTHEST, lt=_FARTHEST)]
+_Radians = Annotated[float, Field(gt=0.01, lt=3.0)]
+
+
+class _Link(BaseModel):
+    """Content of a token; anything may have been written into one."""
+
+    model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+    recording: str
+    frame: int
+    parameters: dict[str, JsonValue]
+    camera: tuple[_Metres, _Metres, _Metres, _Metres, _Metres, _Metres, _Radians] | None = None
+
+
+def _camera(numbers: tuple[float, float, float, float, float, float, float]) -> Camera:
+    """A camera from position, look_at and field of view; ValueError where it looks nowhere."""
+    x, y, z, a, b, c, fov = numbers
+    if math.dist((x, y, z), (a, b, c)) <= 1e-4:
         raise ValueError(numbers)
-    return camera
+    return Camera((x, y, z), (a, b, c), fov)

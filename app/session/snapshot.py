@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from app.analysis.comparison import Comparison
-from app.analysis.estimates import Pair
 from app.analysis.library import Opened
+from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.analysis.timeline import Timeline
 from app.scene.legend import Legend

@@ -6,7 +6,7 @@ from typing import Any
 
 from app.analysis.comparison import Comparison
 from app.session.history import ParameterHistories
-from estimator import ParameterError, Parameters
+from estimator import ParameterError, Parameters, changed, values_of
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Tuning:
         if not values:
             return
         try:
-            after = replace(self.parameters, **values)
+            after = changed(self.parameters, values)
         except ParameterError as error:
             for name in values:
                 self.refusals.pop(name, None)
@@ -81,9 +81,8 @@ class Tuning:
 
     def reset(self, names: Iterable[str]) -> None:
         """Put parameters back to the defaults."""
-        self.set(
-            replace(self.parameters, **{name: getattr(self._defaults, name) for name in names})
-        )
+        defaults = values_of(self._defaults)
+        self.set(changed(self.parameters, {name: defaults[name] for name in names}))
 
     def undo(self, changes: int) -> None:
         """Undo this many changes, or redo where it is negative."""

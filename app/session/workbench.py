@@ -9,10 +9,11 @@ import numpy as np
 import viser
 
 from app.analysis.comparison import A, Comparison, compared
-from app.analysis.estimates import Estimates, Pair
+from app.analysis.estimates import Estimates
 from app.analysis.first_frame import first_frame_with_flow
 from app.analysis.library import Entry, Library, Opened
 from app.analysis.live_timeline import LiveTimeline
+from app.analysis.pairs import Pair
 from app.analysis.selection import Selection, cluster_at, cluster_of
 from app.scene.framing import Framing
 from app.scene.photograph import Photographer
