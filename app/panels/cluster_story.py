@@ -90,7 +90,7 @@ def swatch(label: Label, palette: Palette) -> str:
 
 
 def legend(palette: Palette) -> str:
-    """What the colours of the bars mean, and the mark."""
+    """Meaning of the colours of the bars, and of the mark."""
     labels = "".join(
         f'<span style="margin-right: 1em">{swatch(label, palette)}{label.name.lower()}</span>'
         for label in (Label.MOVING, Label.STATIONARY, Label.UNASSIGNED)

@@ -1,4 +1,4 @@
-"""How two estimates of one frame differ, in numbers."""
+"""Differences between two estimates of one frame, in numbers."""
 
 import math
 from collections.abc import Callable
@@ -30,7 +30,7 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
 
 
 def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
-    """What was estimated with A, with B, and B less A; a dash where a number is not known."""
+    """Numbers estimated with A, with B, and B less A; a dash where one is not known."""
     rows = [Row((name, *_cells(name, of_a, of_b))) for name in _ROWS]
     return table(("", "A", "B", "B − A"), rows)
 

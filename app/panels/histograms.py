@@ -37,7 +37,7 @@ class Histogram:
     marked: float | None = None
 
     def counts(self) -> list[Counter[Label]]:
-        """How many values of each label there are in each bar."""
+        """Number of values of each label in each bar."""
         counts = [Counter[Label]() for _ in range(self.bars)]
         for value, label in self.values:
             if not math.isnan(value):

@@ -57,7 +57,7 @@ class Page:
         self._panels: list[Panel] = [panel(context) for panel in _PANELS]
 
     def announce(self, status: Status) -> None:
-        """Show what is shown at once, and hand messages to the browser."""
+        """Show what needs no drawing, and hand messages to the browser."""
         try:
             for panel in self._panels:
                 panel.announce(status)

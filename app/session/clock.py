@@ -40,7 +40,7 @@ class PlaybackClock:
         self._stamps = [float(stamp) for stamp in stamps]
         whole = Playback(0, len(self._stamps) - 1)
         self.playback = replace(like, first=whole.first, last=whole.last) if like else whole
-        # For so long the last frame is shown before a loop begins again.
+        # Seconds for which the last frame stays before a loop begins again.
         self._period = float(np.median(np.diff(self._stamps))) if whole.last > 0 else 0.1
         self._start: tuple[float, float] | None = None  # a stamp, and the time when it was due
         self._end = whole.last

@@ -41,8 +41,8 @@ class Workbench:
         entries: the recordings that may be opened.
         tuning: parameters to begin with.
         settings: of the drawing, to begin with.
-        survey: of what is shown.
-        timeline: of what is shown.
+        survey: of the recording that is open.
+        timeline: of the recording that is open.
         tasks: that run in the background.
 
     Attributes:

@@ -4,6 +4,7 @@ import inspect
 import logging
 import re
 import threading
+from pathlib import Path
 
 import pytest
 import viser
@@ -11,6 +12,7 @@ import viser._messages
 import viser.infra
 import websockets.asyncio.server as websocket_server
 
+import app
 from app.browser import internals
 from app.browser.guarded_server import GuardedServer
 from tests.app.browser.viser_page import page, scripts_and_styles
@@ -147,3 +149,15 @@ def test_a_message_to_a_client_that_has_gone_is_warned_of_in_these_words(client)
     # Other words are to be set as CLOSED_CONNECTION, or they come up on the terminal.
     with pytest.warns(UserWarning, match=internals.CLOSED_CONNECTION):
         buffer.push(viser._messages.RunJavascriptMessage(source="1 + 1"))
+
+
+def test_private_parts_are_used_in_one_file_alone():
+    root = Path(app.__file__).parent
+    used = [
+        f"{path.relative_to(root)}: {line.strip()}"
+        for path in sorted(root.rglob("*.py"))
+        if path != Path(internals.__file__) and "viser" in (text := path.read_text("utf-8"))
+        for line in text.splitlines()
+        if re.search(r"(?<!\bself)(?<!\bcls)(?<!\bargparse)\._[a-z]|\bviser\._", line)
+    ]
+    assert not used, f"put these into {INTERNALS}, with a test: {used}"
