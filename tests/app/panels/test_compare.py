@@ -31,12 +31,12 @@ def test_every_number_of_a_and_b_and_what_lies_between(estimates):
     assert said["Stationary"] == ["400", "0", "−400"]
     assert said["Unassigned"] == ["0", "0", "+0"]
     assert said["Clusters"] == ["5", "5", "+0"]
-    assert said["Coverage [%]"] == ["100.0", "100.0", "+0.0"]
-    assert said["Precision [%]"] == ["100.0", "20.0", "−80.0"]
+    assert said["Coverage"] == ["1.000", "1.000", "+0.000"]
+    assert said["Precision"] == ["1.000", "0.200", "−0.800"]
     # They were timed under whatever else went on, which says nothing of A and B.
     assert not any("ms" in name for name in said)
     # Four patches in five rest, so that the baseline is wrong by 0.15 m/s there.
-    assert said["Vel. error [m/s]"] == ["0.000", "0.120", "+0.120"]
+    assert said["Vel. error [m/s]"] == ["0.0000", "0.1200", "+0.1200"]
 
 
 def test_what_is_not_known_is_a_dash(estimates):
@@ -46,7 +46,7 @@ def test_what_is_not_known_is_a_dash(estimates):
     still = estimates.estimated(fake_opened(), 20, Parameters(delta=0.5))
     said = rows(difference_table(a, still))
     assert said["Moving"] == ["100", "0", "−100"]
-    assert said["Precision [%]"] == ["100.0", "–", "–"]
+    assert said["Precision"] == ["1.000", "–", "–"]
     assert set(rows(difference_table(None, None))["Clusters"]) == {"–"}
 
 

@@ -262,7 +262,7 @@ def test_while_it_is_filled_it_says_how_far_it_is():
 def test_axes_end_at_round_numbers(client, largest, top):
     bench = Bench(client)
     survey = Survey(fake_recording(), Parameters())
-    survey.angle_deg[10] = largest
+    survey.metrics["angle_deg"][10] = largest
     bench.show(survey=survey, survey_revision=1)
     assert bench.plots[2].scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
 

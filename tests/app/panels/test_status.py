@@ -17,10 +17,12 @@ def said(pair):
 def test_all_numbers_of_a_pair():
     pair = Estimates().estimated(fake_opened(), 20, Parameters())
     numbers = said(replace(pair, milliseconds=61.4))
-    assert numbers["Vel. error"] == "0.000 m/s"
-    assert numbers["Angle deviation"] == "0.0°"
+    assert numbers["Vel. error"] == "0.0000 m/s"
+    assert numbers["Angle deviation"] == "0.00°"
     del numbers["Vel. error"], numbers["Angle deviation"]
     assert numbers == {
+        "Coverage": "1.000",
+        "Precision": "1.000",
         "Source": "500",
         "Target": "500",
         "Moving": "100",

@@ -75,5 +75,5 @@ def test_a_damaged_token_is_told(token):
 def test_parameters_that_cannot_be_used_are_told():
     with pytest.raises(InputError, match="The link: gamma must be between 0 and 1"):
         from_token(made(parameters={"gamma": 7}))
-    with pytest.raises(InputError, match="The link names speed, which is no parameter"):
+    with pytest.raises(InputError, match="The link: speed is no parameter"):
         from_token(made(parameters={"speed": 7}))
