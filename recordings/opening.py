@@ -1,25 +1,31 @@
 """Opening a recording: what each topic is, where the sensors are, what the truth is."""
 
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
-
-import numpy as np
 
 from recordings.contents import ZONES, Topic, Use, natural_key, topics_of
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError, few
 from recordings.frame import Provenance
 from recordings.frame_table import FrameTable, frame_table
-from recordings.joints import joint_names, joint_positions, matched, unknown_joints
+from recordings.joints import (
+    beyond_limits,
+    joint_names,
+    joint_positions,
+    matched,
+    unknown_joints,
+)
 from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
+from recordings.recorded_robot import link_frames, recorded_robot
 from recordings.recording import Parts, Recording
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
 from recordings.sensors import RecordedSensor, depth_stream, recorded_sensors
 from recordings.stamp_index import STAMP_INDEX
 from recordings.transforms import TransformTree, read_transforms
-from robot_assets import Rig, Robot, RobotError, Sensor, load_rig, load_robot
+from robot_assets import Rig, Robot, Sensor, load_rig, load_robot
 
 PROVENANCE_RECORD = "tofscope"
 _COMPLETE = 0.9  # share of the sensors in a frame, below which something is wrong
@@ -93,7 +99,7 @@ def _open(
 
     names = joint_names(topics, file, decoder)
     if robot is None:
-        robot, said = _robot(topics, decoder, names)
+        robot, said = recorded_robot(topics, decoder, names)
         warnings += said
     if robot is not None and (missing := robot.missing_meshes):
         count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
@@ -109,14 +115,18 @@ def _open(
         rig_sensors = [in_rig for _, _, in_rig in default]
 
     frames = [topic.frame for topic, _, _ in found]
-    fixed = _fixed_frame(fixed_frame, file, tree, frames, robot)
     robot_poses = None
-    if robot is not None:
+    if robot is None:
+        fixed = _fixed_frame(fixed_frame, file, tree, frames, None, {})
+    else:
         match, said = matched(robot, names)
+        in_tree = link_frames(robot, match.prefix, tree.frames)
+        fixed = _fixed_frame(fixed_frame, file, tree, frames, robot, in_tree)
         positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
-        warnings += said + doubled + _limits(robot, positions)
-        warnings += unknown_joints(robot, positions, tree.frames)
-        robot_poses = RobotPoses(robot, positions, tree, fixed)
+        warnings += said + doubled + beyond_limits(robot, positions)
+        placed = [link for link, frame in in_tree.items() if frame in tree.frames]
+        warnings += unknown_joints(robot, positions, placed)
+        robot_poses = RobotPoses(robot, positions, tree, fixed, in_tree)
     poses = SensorPoses(frames, tree, fixed, rig_sensors, robot_poses, len(table.stamps))
     warnings += _unplaced_sensors(file, found, tree, fixed, rig_sensors, robot, rig)
 
@@ -188,47 +198,26 @@ def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
     return f"{file.path} has no 8 x 8 depth images, so there is nothing to estimate from; {held}."
 
 
-def _robot(
-    topics: list[Topic], decoder: Decoder, names: list[str]
-) -> tuple[Robot | None, list[str]]:
-    described = next((topic for topic in topics if topic.use is Use.ROBOT), None)
-    if described is not None:
-        try:
-            robot = load_robot(decoder.decode(described.channel, 0).data)
-        except RobotError as error:
-            return None, [str(error)]
-        return robot, []
-    panda = load_robot()
-    arm = [joint for joint in panda.joint_names if "finger" not in joint]
-    fits = set(arm) <= set(panda.match_joints(names).joints.values())
-    return (panda, []) if fits else (None, [])
-
-
-def _limits(robot: Robot, positions: dict[str, np.ndarray]) -> list[str]:
-    """Sentences about joints beyond their limits, at the frame where each is furthest out."""
-    extremes = {
-        joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
-        for joint, values in positions.items()
-        if np.isfinite(values).any()
-    }
-    return robot.outside_limits(extremes)
-
-
 def _fixed_frame(
-    asked: str | None, file: McapFile, tree: TransformTree, frames: list[str], robot: Robot | None
+    asked: str | None,
+    file: McapFile,
+    tree: TransformTree,
+    frames: list[str],
+    robot: Robot | None,
+    link_frames: Mapping[str, str],
 ) -> str:
-    known = tree.frames | set(frames) | (set(robot.links) if robot else set())
+    known = tree.frames | set(frames) | set(link_frames) | set(link_frames.values())
     if asked is not None:
         if asked not in known:
             listed = [*sorted(known - set(frames)), *sorted(frames, key=natural_key)]
             raise RecordingError(f"{file.path} has no frame {asked}; it has {few(listed)}.")
-        return asked
+        return asked if asked in tree.frames else link_frames.get(asked, asked)
     in_tree = [frame for frame in frames if frame in tree.frames]
     if in_tree:
         roots = [tree.root_of(frame) for frame in in_tree]
         return max(dict.fromkeys(roots), key=roots.count)
     if robot:
-        return robot.base
+        return link_frames[robot.base]
     if len(frames) > 1:
         raise RecordingError(
             f"{file.path}: nothing places its {len(frames)} sensors relative to each other; it "
@@ -262,9 +251,29 @@ def _unplaced_sensors(
     warnings: list[str] = []
     if unplaced:
         warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
+    warnings += _on_one_spot(found, tree, fixed, rig_sensors)
     if rig is not None and (strangers := [t.name for t, _, in_rig in found if in_rig is None]):
         warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
     return warnings
+
+
+def _on_one_spot(
+    found: list[tuple[Topic, RecordedSensor, Sensor | None]],
+    tree: TransformTree,
+    fixed: str,
+    rig_sensors: list[Sensor | None],
+) -> list[str]:
+    """Sentences about sensors that one and the same sensor of the rig places."""
+    topics: dict[str, list[str]] = {}
+    for (topic, _, _), sensor in zip(found, rig_sensors, strict=True):
+        if sensor and not tree.connected(fixed, topic.frame):
+            topics.setdefault(sensor.name, []).append(topic.name)
+    return [
+        f"The rig has one sensor, {name}, for the topics {few(names)}, and places them on one "
+        f"spot; it needs one for each, named like its topic with the part that differs."
+        for name, names in topics.items()
+        if len(names) > 1
+    ]
 
 
 def _check_rig(file: McapFile, rig: Rig) -> None:

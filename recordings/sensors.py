@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from recordings.contents import DEPTH_ENCODINGS, ZONES, Topic, Use, camera_matrix
 from recordings.decoding import Decoder
 from recordings.errors import RecordingError
+from recordings.sensor_names import names_and_rings
 from robot_assets import Rig, SensorModel, zone_rays
 from robot_assets import Sensor as RigSensor
 
@@ -57,17 +58,19 @@ def recorded_sensors(
     """
     infos = [topic for topic in topics if topic.use is Use.CAMERA_INFO]
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]] = []
-    for topic in [topic for topic in topics if topic.use is Use.DEPTH]:
-        in_rig = _sensor_of(rig, topic) if rig else None
+    depth = [topic for topic in topics if topic.use is Use.DEPTH]
+    matches = [_sensor_of(rig, topic) if rig else None for topic in depth]
+    names = names_and_rings([topic.name for topic in depth], matches)
+    for topic, in_rig, (name, ring) in zip(depth, matches, names, strict=True):
         info = next((i for i in infos if i.frame == topic.frame), None) or next(
             (i for i in infos if parent(i.name) == parent(topic.name)), None
         )
         if rig and in_rig:
-            sensor = _by_model(in_rig.name, in_rig.ring, topic.frame, rig.model)
+            sensor = _by_model(name, ring, topic.frame, rig.model)
         elif info:
-            sensor = _by_camera_info(topic, decoder.decode(info.channel, 0))
+            sensor = _by_camera_info(name, ring, topic.frame, decoder.decode(info.channel, 0))
         else:
-            sensor = _by_model(short_name(topic.name), "", topic.frame, SensorModel())
+            sensor = _by_model(name, "", topic.frame, SensorModel())
         found.append((topic, sensor, in_rig))
     return found
 
@@ -129,12 +132,6 @@ def parent(topic: str) -> str:
     return topic.rsplit("/", 1)[0]
 
 
-def short_name(topic: str) -> str:
-    """A sensor's name from its topic: "base/0" of "/tof/base/0/image"."""
-    parts = [part for part in parent(topic).split("/") if part]
-    return "/".join(parts[-2:]) or topic.strip("/")
-
-
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
     """The sensor of a rig whose name stands in the topic or in its frame."""
     texts = [f"_{_plain(text)}_" for text in (parent(topic.name), topic.frame)]
@@ -152,25 +149,19 @@ def _by_model(name: str, ring: str, frame: str, model: SensorModel) -> RecordedS
     )
 
 
-def _by_camera_info(topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401
+def _by_camera_info(name: str, ring: str, frame: str, info: Any) -> RecordedSensor:  # noqa: ANN401
     # REP 118: a depth image holds distances along the optical axis, in the order of the optical
     # frame, so the camera matrix is all that is needed.
     fx, fy, cx, cy = camera_matrix(info)
     rows, columns = ZONES
     return RecordedSensor(
-        name=short_name(topic.name),
-        ring=_ring(topic.name),
-        frame=topic.frame,
+        name=name,
+        ring=ring,
+        frame=frame,
         directions=zone_rays(rows, columns, fx=fx, fy=fy, cx=cx, cy=cy),
         arrange=lambda values: values,
         limits=(0.0, np.inf),
     )
-
-
-def _ring(topic: str) -> str:
-    name = short_name(topic)
-    ring, _, number = name.rpartition("/")
-    return ring if number.isdigit() else ""
 
 
 @dataclass(frozen=True)
