@@ -49,7 +49,10 @@ def match_joints(
     """
     cores = {name: name.removeprefix(own_prefix) for name in [*joints, *others]}
     by_prefix = _by_prefix(recorded, cores, joints)
-    complete = [prefix for prefix, names in by_prefix.items() if set(needed) <= set(names)]
+    # One joint is no evidence of a robot: that of a gripper fits as well.
+    complete = [
+        p for p, names in by_prefix.items() if len(needed) > 1 and set(needed) <= set(names)
+    ]
     prefix = _chosen(complete or list(by_prefix), own_prefix)
 
     rivals = {p: by_prefix[p] for p in complete if p != prefix}

@@ -128,6 +128,14 @@ def test_a_robot_of_sliding_joints_needs_them_all():
     assert robot.match_joints(["gantry_x", "other_x"]).ambiguous == ("x",)
 
 
+def test_one_joint_is_no_evidence_of_a_second_robot():
+    robot = load_robot(chain("panda_joint1"))
+    match = robot.match_joints(arm("panda_") + fingers("panda_"))
+    assert match.joints == {"panda_joint1": "panda_joint1"}
+    assert match.rivals == match.missing == ()
+    assert robot.match_joints(["a_joint1", "b_joint1"]).ambiguous == ("panda_joint1",)
+
+
 def test_links_are_called_with_another_prefix(panda: Robot):
     assert panda.link_names("left/fr3_")["panda_link0"] == "left/fr3_link0"
     assert set(panda.link_names("panda_")) == set(panda.link_names("panda_").values())
