@@ -65,12 +65,34 @@ def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
     """Match recorded joint names to a robot, with a sentence for whatever does not fit."""
     match = robot.match_joints(names)
     warnings: list[str] = []
-    if match.ambiguous:
+    if match.rivals:
+        each = " and ".join(f"that of {name}" for name in match.rivals)
+        used = [f"that of {name} is used" for name in match.rivals if name in match.joints]
+        what = used[0] if used else "none is used; give a URDF with the joint names of one"
+        warnings.append(
+            f"The recorded joints fit more than one robot like {robot.name}, {each}; {what}."
+        )
+    elif match.ambiguous:
         warnings.append(
             f"Several recorded joints fit {few(match.ambiguous)} of {robot.name}; "
             "none of them is used."
         )
     return match, warnings
+
+
+def beyond_limits(robot: Robot, positions: dict[str, NDArray[np.float64]]) -> list[str]:
+    """Sentences about joints beyond their limits, at the frame where each is furthest out.
+
+    Args:
+        robot: the robot.
+        positions: {joint: (K,)} that were recorded.
+    """
+    extremes = {
+        joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
+        for joint, values in positions.items()
+        if np.isfinite(values).any()
+    }
+    return robot.outside_limits(extremes)
 
 
 def unknown_joints(

@@ -3,17 +3,23 @@
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from recordings.contents import Topic, Use, natural_key, topics_of
+from recordings.contents import Topic, Use, topics_of
 from recordings.decoding import Decoder
-from recordings.errors import BrokenFileError, RecordingError, few
+from recordings.errors import BrokenFileError, RecordingError
 from recordings.frame_table import FrameTable, frame_table
 from recordings.grids import SIZES
-from recordings.joints import joint_names, joint_positions, matched, unknown_joints
+from recordings.joints import (
+    beyond_limits,
+    joint_names,
+    joint_positions,
+    matched,
+    unknown_joints,
+)
 from recordings.mcap_file import McapFile
 from recordings.object_truth import object_truth, point_truths
+from recordings.placing import chosen_fixed_frame, unplaced_sensors
 from recordings.provenance import provenance_of
+from recordings.recorded_robot import link_frames, recorded_robot
 from recordings.recording import Parts, Recording
 from recordings.rig_record import rig_of
 from recordings.robot_poses import RobotPoses
@@ -26,8 +32,8 @@ from recordings.sensors import (
     unfit_intrinsics,
 )
 from recordings.stamp_index import STAMP_INDEX
-from recordings.transforms import TransformTree, read_transforms
-from robot_assets import Rig, Robot, RobotError, Sensor, load_rig, load_robot
+from recordings.transforms import read_transforms
+from robot_assets import Rig, Robot, Sensor, load_rig, load_robot
 
 _COMPLETE = 0.9  # share of the sensors in a frame, below which something is wrong
 
@@ -47,7 +53,7 @@ def open_recording(
             robot's base.
         truth_frame: a frame whose rigid motion is the truth; default: the recorded twist or pose.
         rig: sensors by name, intrinsics included, for recordings that do not place their own;
-            default: the paper's rig where the joints are a Panda's.
+            default: the rig in the file, or the paper's, where the joints are a Panda's.
         robot: default: the recording's description, or a Panda where the joints are a Panda's.
 
     Returns:
@@ -105,7 +111,7 @@ def _open(
 
     names = joint_names(topics, file, decoder)
     if robot is None:
-        robot, said = _robot(topics, decoder, names)
+        robot, said = recorded_robot(topics, decoder, names)
         warnings += said
     if robot is not None and (missing := robot.missing_meshes):
         count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
@@ -120,16 +126,20 @@ def _open(
         by_rig = rig_sensors(topics, own_rig or load_rig())
 
     frames = [topic.frame for topic, _, _ in found]
-    fixed = _fixed_frame(fixed_frame, file, tree, frames, robot)
     robot_poses = None
-    if robot is not None:
+    if robot is None:
+        fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, None, {})
+    else:
         match, said = matched(robot, names)
+        in_tree = link_frames(robot, match.prefix, tree.frames)
+        fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, robot, in_tree)
         positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
-        warnings += said + doubled + _limits(robot, positions)
-        warnings += unknown_joints(robot, positions, tree.frames)
-        robot_poses = RobotPoses(robot, positions, tree, fixed)
+        warnings += said + doubled + beyond_limits(robot, positions)
+        placed = [link for link, frame in in_tree.items() if frame in tree.frames]
+        warnings += unknown_joints(robot, positions, placed)
+        robot_poses = RobotPoses(robot, positions, tree, fixed, in_tree)
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
-    warnings += _unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
+    warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
 
     truth, said = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
     warnings += said
@@ -176,90 +186,6 @@ def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
     return (
         f"{file.path} has no depth images of {SIZES}, so there is nothing to estimate from; {held}."
     )
-
-
-def _robot(
-    topics: list[Topic], decoder: Decoder, names: list[str]
-) -> tuple[Robot | None, list[str]]:
-    described = next((topic for topic in topics if topic.use is Use.ROBOT), None)
-    if described is not None:
-        try:
-            robot = load_robot(decoder.decode(described.channel, 0).data)
-        except RobotError as error:
-            return None, [str(error)]
-        return robot, []
-    panda = load_robot()
-    arm = [joint for joint in panda.joint_names if "finger" not in joint]
-    fits = set(arm) <= set(panda.match_joints(names).joints.values())
-    return (panda, []) if fits else (None, [])
-
-
-def _limits(robot: Robot, positions: dict[str, np.ndarray]) -> list[str]:
-    """Sentences about joints beyond their limits, at the frame where each is furthest out."""
-    extremes = {
-        joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
-        for joint, values in positions.items()
-        if np.isfinite(values).any()
-    }
-    return robot.outside_limits(extremes)
-
-
-def _fixed_frame(
-    asked: str | None, file: McapFile, tree: TransformTree, frames: list[str], robot: Robot | None
-) -> str:
-    known = tree.frames | set(frames) | (set(robot.links) if robot else set())
-    if asked is not None:
-        if asked not in known:
-            listed = [*sorted(known - set(frames)), *sorted(frames, key=natural_key)]
-            raise RecordingError(f"{file.path} has no frame {asked}; it has {few(listed)}.")
-        return asked
-    in_tree = [frame for frame in frames if frame in tree.frames]
-    if in_tree:
-        roots = [tree.root_of(frame) for frame in in_tree]
-        return max(dict.fromkeys(roots), key=roots.count)
-    if robot:
-        return robot.base
-    if len(frames) > 1:
-        raise RecordingError(
-            f"{file.path}: nothing places its {len(frames)} sensors relative to each other; it "
-            f"needs /tf, or joints and a rig."
-        )
-    return frames[0]
-
-
-def _unplaced_sensors(
-    file: McapFile,
-    found: list[tuple[Topic, RecordedSensor, Sensor | None]],
-    tree: TransformTree,
-    fixed: str,
-    by_rig: list[Sensor | None],
-    robot: Robot | None,
-    rig: Rig | None,
-) -> list[str]:
-    """Sentences about sensors that nothing places; refuse a recording where that is all."""
-    unplaced = [
-        topic.frame or topic.name
-        for (topic, _, _), sensor in zip(found, by_rig, strict=True)
-        if not tree.connected(fixed, topic.frame)
-        and not (sensor and robot and sensor.link in robot.links)
-    ]
-    if len(unplaced) == len(found):
-        raise RecordingError(
-            f"{file.path}: no sensor can be placed in {fixed}; neither /tf nor a rig places "
-            f"{few(unplaced)}. Give a rig whose sensors are named like the topics, or another "
-            f"fixed frame."
-        )
-    warnings: list[str] = []
-    if unplaced:
-        warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
-    if rig is None:
-        return warnings
-    if strangers := [t.name for t, _, in_rig in found if in_rig is None]:
-        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
-    there = {in_rig.name for _, _, in_rig in found if in_rig is not None}
-    if absent := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
-        warnings.append(f"No topic belongs to {few(absent)} of the rig '{rig.name}'.")
-    return warnings
 
 
 def _check_rig(

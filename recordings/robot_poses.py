@@ -1,5 +1,6 @@
 """Where the links of the recording's robot are."""
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -19,6 +20,7 @@ class RobotPoses:
         positions: {joint: (K,) rad or m, NaN where unknown} of the joints that were recorded.
         tree: poses of /tf; where it places the robot's base or its links it wins.
         fixed_frame: in which links are placed.
+        link_frames: {link: its frame in /tf}; default: each is called like the link.
     """
 
     def __init__(
@@ -27,11 +29,13 @@ class RobotPoses:
         positions: dict[str, NDArray[np.float64]],
         tree: TransformTree,
         fixed_frame: str,
+        link_frames: Mapping[str, str] | None = None,
     ) -> None:
         self.robot = robot
         self._positions = positions
         self._tree = tree
         self._fixed_frame = fixed_frame
+        self._frames = link_frames or {link: link for link in robot.links}
         self.link_poses = lru_cache(maxsize=_CACHED_FRAMES)(self._link_poses)
 
     def joint_positions(self, k: int) -> dict[str, float]:
@@ -46,9 +50,9 @@ class RobotPoses:
         T_fixed_base = self._base_pose(k, T_base_links)
         if np.isfinite(T_fixed_base).all():
             poses = {link: T_fixed_base @ T for link, T in T_base_links.items()}
-        for link in self.robot.links:
-            if link in self._tree.frames:
-                T_fixed_link = self._tree.transform(self._fixed_frame, link, k)
+        for link, frame in self._frames.items():
+            if frame in self._tree.frames:
+                T_fixed_link = self._tree.transform(self._fixed_frame, frame, k)
                 if np.isfinite(T_fixed_link).all():
                     poses[link] = T_fixed_link
         return poses
@@ -64,9 +68,11 @@ class RobotPoses:
 
     def _base_pose(self, k: int, T_base_links: dict[str, Transform]) -> Transform:
         """T_fixed_base (4, 4), NaN where unknown."""
-        if self._fixed_frame == self.robot.base:
+        base = self._frames[self.robot.base]
+        if self._fixed_frame == base:
             return np.eye(4)
-        if self._fixed_frame in T_base_links:
-            # The fixed frame is a link that the joints place.
-            return inverse(T_base_links[self._fixed_frame])
-        return self._tree.transform(self._fixed_frame, self.robot.base, k)
+        for link, T_base_link in T_base_links.items():
+            if self._frames[link] == self._fixed_frame:
+                # The fixed frame is a link that the joints place.
+                return inverse(T_base_link)
+        return self._tree.transform(self._fixed_frame, base, k)

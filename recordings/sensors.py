@@ -1,7 +1,7 @@
 """The sensors of a recording: their intrinsics, and their readings in metres."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from recordings.decoding import Decoder
 from recordings.errors import RecordingError
 from recordings.grids import Grid, shown
 from recordings.rig_record import depth_topic, topic_part
+from recordings.sensor_names import names_and_rings
 from robot_assets import Rig, SensorModel, plain_name, zone_rays
 from robot_assets import Sensor as RigSensor
 
@@ -68,19 +69,19 @@ def recorded_sensors(
     """
     named_by = {depth_topic(topic_part(s.name)): s for s in own.sensors} if own else {}
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]] = []
-    for topic in [topic for topic in topics if topic.use is Use.DEPTH]:
-        in_rig = _sensor_of(rig, topic) if rig else None
+    depth = [topic for topic in topics if topic.use is Use.DEPTH]
+    matches = [_sensor_of(rig, topic) if rig else None for topic in depth]
+    own_sensors = [named_by.get(topic.name) for topic in depth]
+    names = names_and_rings([topic.name for topic in depth], matches, own_sensors)
+    for topic, in_rig, (name, ring) in zip(depth, matches, names, strict=True):
         info = next((i for i in _infos(topic, topics) if i.grid == topic.grid), None)
         if rig and in_rig:
-            sensor = _by_model(in_rig.name, in_rig.ring, topic, rig.model)
+            sensor = _by_model(name, ring, topic, rig.model)
         elif info:
-            sensor = _by_camera_info(topic, decoder.decode(info.channel, 0))
+            sensor = _by_camera_info(name, ring, topic, decoder.decode(info.channel, 0))
         else:
             rows, columns = _grid(topic)
-            model = SensorModel(rows=rows, columns=columns)
-            sensor = _by_model(short_name(topic.name), "", topic, model)
-        if not in_rig and (named := named_by.get(topic.name)):
-            sensor = replace(sensor, name=named.name, ring=named.ring)
+            sensor = _by_model(name, ring, topic, SensorModel(rows=rows, columns=columns))
         found.append((topic, sensor, in_rig))
     return found
 
@@ -192,12 +193,6 @@ def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
     return np.stack(lines).view(kind.newbyteorder(order)).astype(kind)
 
 
-def short_name(topic: str) -> str:
-    """A sensor's name from its topic: "base/0" of "/tof/base/0/image"."""
-    parts = [part for part in parent(topic).split("/") if part]
-    return "/".join(parts[-2:]) or topic.strip("/")
-
-
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
     """The sensor of a rig whose name stands in the topic or in its frame."""
     texts = [f"_{plain_name(text)}_" for text in (parent(topic.name), topic.frame)]
@@ -212,25 +207,19 @@ def _by_model(name: str, ring: str, topic: Topic, model: SensorModel) -> Recorde
     )
 
 
-def _by_camera_info(topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401
+def _by_camera_info(name: str, ring: str, topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401
     # REP 118: a depth image holds distances along the optical axis, in the order of the optical
     # frame, so the camera matrix is all that is needed.
     fx, fy, cx, cy = camera_matrix(info)
     rows, columns = _grid(topic)
     return RecordedSensor(
-        name=short_name(topic.name),
-        ring=_ring(topic.name),
+        name=name,
+        ring=ring,
         frame=topic.frame,
         directions=zone_rays(rows, columns, fx=fx, fy=fy, cx=cx, cy=cy),
         arrange=lambda values: values,
         limits=(0.0, np.inf),
     )
-
-
-def _ring(topic: str) -> str:
-    name = short_name(topic)
-    ring, _, number = name.rpartition("/")
-    return ring if number.isdigit() else ""
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,11 @@
 """What the robot is: its description and kinematics, its sensors, and its own body's shadow."""
 
 from robot_assets.errors import RobotError
+from robot_assets.joint_match import JointMatch
 from robot_assets.raycast import RayCaster
 from robot_assets.rig import Rig, RigError, Sensor, load_rig, parse_rig, plain_name
 from robot_assets.rig_text import rig_text
-from robot_assets.robot import JointMatch, Robot, Transform, load_robot
+from robot_assets.robot import Robot, Transform, load_robot
 from robot_assets.self_filter import SelfFilter
 from robot_assets.sensor_model import SensorModel, zone_rays
 

@@ -3,7 +3,6 @@
 import re
 import threading
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
@@ -16,24 +15,11 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
+from robot_assets.joint_match import JointMatch, match_joints
 from robot_assets.meshes import link_meshes, panda_urdf_path, resolve_mesh
 
 Transform = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class JointMatch:
-    """How a set of recorded joint names fits a robot.
-
-    Attributes:
-        joints: {recorded name: the robot's joint}.
-        missing: the robot's actuated joints that no recorded name fits, in the robot's order.
-        ambiguous: the robot's joints that several recorded names fit; they match none of them.
-    """
-
-    joints: dict[str, str]
-    missing: tuple[str, ...]
-    ambiguous: tuple[str, ...]
+_TURNING = ("revolute", "continuous")
 
 
 class Robot:
@@ -66,21 +52,25 @@ class Robot:
         """Match recorded joint names to this robot's, exactly or by what follows the prefix.
 
         `panda_joint1`, `fer_joint1`, `fr3_joint1` and `/left/panda_joint1` all mean the joint
-        whose name without the robot's own prefix is `joint1`.
+        whose name without the robot's own prefix is `joint1`. A robot is there under a prefix
+        where that has all joints that turn; fingers may be missing.
         """
-        cores = {name: name.removeprefix(self._prefix) for name in self.joint_names}
-        candidates: dict[str, list[str]] = {name: [] for name in self.joint_names}
-        for recorded_name in recorded:
-            fitting = [n for n, core in cores.items() if _ends_with(recorded_name, core)]
-            if fitting:
-                candidates[max(fitting, key=lambda n: len(cores[n]))].append(recorded_name)
-        exact = {n: [n] for n, names in candidates.items() if n in names}
-        candidates |= exact
-        return JointMatch(
-            joints={names[0]: n for n, names in candidates.items() if len(names) == 1},
-            missing=tuple(n for n, names in candidates.items() if not names),
-            ambiguous=tuple(n for n, names in candidates.items() if len(names) > 1),
+        turning = [name for name in self.joint_names if self._urdf.joint_map[name].type in _TURNING]
+        return match_joints(
+            recorded,
+            self.joint_names,
+            [name for name, _ in self._joints if name not in self.joint_names],
+            self._prefix,
+            turning or self.joint_names,
         )
+
+    def link_names(self, prefix: str) -> dict[str, str]:
+        """{link: its name with `prefix` in the place of the robot's own} of every link."""
+        own = self._prefix
+        return {
+            link: prefix + link.removeprefix(own) if link.startswith(own) else link
+            for link in self.links
+        }
 
     def links_placed_by(self, joints: Collection[str]) -> frozenset[str]:
         """Links whose pose is known where these joints' positions are.
@@ -92,7 +82,7 @@ class Robot:
         unknown = {
             str(joint.child)
             for name, joint in self._joints
-            if joint.type in ("revolute", "continuous") and driver[name] not in joints
+            if joint.type in _TURNING and driver[name] not in joints
         }
         return frozenset(link for link in self.links if unknown.isdisjoint(self._chain(link)))
 
@@ -236,7 +226,3 @@ def _check_is_urdf(where: str, text: str) -> None:
         raise RobotError(f"{where} has no links.")
     if any(not mesh.get("filename") for mesh in root.iter("mesh")):
         raise RobotError(f"{where} has a <mesh> without a filename.")
-
-
-def _ends_with(recorded: str, core: str) -> bool:
-    return recorded == core or recorded.endswith((f"_{core}", f"/{core}"))

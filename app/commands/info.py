@@ -88,6 +88,7 @@ def _text(info: FileInfo, summary: dict[str, Any]) -> str:
             f"provenance    {kind}: {source['scenario']}, {source['speed']:g} m/s, "
             f"trial {source['trial']}, seed {source['seed']}",
             f"noise         {source['noise']}",
+            *([f"rig           {source['rig']}"] if source["rig"] else []),
             f"imperfections {', '.join(source['imperfections']) or 'none'}",
             f"made by       {source['command']}",
         ]

@@ -65,6 +65,19 @@ def test_sensors_of_a_rig_that_no_topic_belongs_to_are_named(tmp_path: Path):
         assert not any("No topic belongs" in warning for warning in recording.warnings)
 
 
+def test_two_topics_for_one_sensor_of_the_rig_are_said(tmp_path: Path):
+    names = ["left/base_0", "right/base_0", "base_1"]
+    path = sensors(names, [], joints=True).write(tmp_path / "x.mcap")
+    with open_recording(path, rig=load_rig()) as recording:
+        said = " ".join(recording.warnings)
+        assert "one sensor, base/0, for the topics /left/base_0/image, /right/base_0/image" in said
+        assert "base/1" not in said
+        assert [s.name for s in recording.sensors] == ["base/1", "left/base_0", "right/base_0"]
+    tf = sensors(names, names, joints=True).write(tmp_path / "x.mcap")
+    with open_recording(tf, rig=load_rig()) as recording:
+        assert "one spot" not in " ".join(recording.warnings)
+
+
 def test_a_rig_for_another_robot_is_refused(tmp_path: Path):
     path = sensors(["base_0"], [], joints=True).write(tmp_path / "x.mcap")
     rig = load_rig()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from recordings import RecordedSensor, RecordingError
-from recordings.sensors import pixels, readings, short_name
+from recordings.sensors import pixels, readings
 from robot_assets import SensorModel
 
 SENSOR = RecordedSensor(
@@ -87,11 +87,3 @@ def test_the_models_order_and_limits_are_applied():
     assert np.isnan(values[0, :3]).all()
     assert values[0, 3] == pytest.approx(0.060)
     assert np.isnan(values[7, 0])
-
-
-@pytest.mark.parametrize(
-    ("topic", "name"),
-    [("/tof/base/0/image", "base/0"), ("/image", "image"), ("/skin/s3/depth", "skin/s3")],
-)
-def test_a_sensor_is_called_after_its_topic(topic: str, name: str):
-    assert short_name(topic) == name

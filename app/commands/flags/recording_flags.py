@@ -40,7 +40,11 @@ def add_recording_flags(parser: argparse.ArgumentParser) -> None:
         "--rig",
         type=Path,
         metavar="FILE",
-        help="rig file (TOML) for recordings that do not place their sensors themselves",
+        help=(
+            "rig file (TOML): names and intrinsics of the sensors, and their places where /tf has "
+            "none (default: as recorded; places by the rig in the file, or by the paper's on a "
+            "Panda)"
+        ),
     )
     group.add_argument(
         "--urdf",

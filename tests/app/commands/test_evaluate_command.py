@@ -207,6 +207,18 @@ def test_unknown_flags_are_one_sentence(capsys: pytest.CaptureFixture[str]):
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
 
 
+def test_two_arms_with_equal_ends_of_topics_give_the_right_answer(
+    shared_data: Path, tmp_path: Path
+):
+    path = shared_data / "cases" / "f11_two_arms_equal_topic_tails.mcap"
+    table = tmp_path / "table.json"
+    assert main(["evaluate", str(path), "--json", str(table)]) == 0
+    (row,) = json.loads(table.read_text())["recordings"]
+    assert (row["pairs"], row["points_with_flow"]) == (32, 3732)
+    assert row["angle_deg"] == pytest.approx(0.68, abs=0.005)
+    assert row["velocity_error"] == pytest.approx(0.0022, abs=0.00005)
+
+
 def documented_flights() -> dict[tuple[str, str], dict[str, float]]:
     """{(flight, method): its line} of the table in docs/real_flights.md."""
     lines = (REPOSITORY / "docs" / "real_flights.md").read_text(encoding="utf-8").splitlines()

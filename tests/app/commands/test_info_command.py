@@ -1,10 +1,16 @@
 import json
+from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import pytest
 
 from app.command_line import main
+from recordings import Provenance
+from recordings.simulation import SCENARIOS
+from recordings.writer import RecordingWriter
 from tests.recordings.room import write_room
+from tests.recordings.simulation.made import RIG, ROBOT, frames, written
 
 
 def test_info_says_what_each_topic_is_used_as(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
@@ -29,6 +35,29 @@ def test_info_is_readable_by_people(tmp_path: Path, capsys: pytest.CaptureFixtur
     said = capsys.readouterr().out
     assert "/skin/s23/depth" in said
     assert "fixed frame   world" in said
+
+
+def test_info_names_the_rig_of_a_recording_that_says_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    path = written(tmp_path / "x.mcap", "fast", 2.0, rig=replace(RIG, name="eyes"))
+    assert main(["info", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    number = next(i for i, line in enumerate(lines) if line.startswith("noise         "))
+    assert lines[number + 1] == "rig           eyes"
+
+
+def test_info_of_an_older_recording_has_no_line_for_the_rig(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    about = Provenance(True, "towards", 0.6, 1, 0, "none", "made for a test")
+    with RecordingWriter(tmp_path / "x.mcap", ROBOT, RIG, about) as writer:
+        for frame in islice(frames(SCENARIOS["towards"]), 2):
+            writer.write(frame)
+    assert main(["info", str(tmp_path / "x.mcap")]) == 0
+    said = capsys.readouterr().out
+    assert "noise         none" in said
+    assert "rig  " not in said
 
 
 @pytest.mark.parametrize(

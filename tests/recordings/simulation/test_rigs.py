@@ -137,6 +137,17 @@ def test_a_recording_says_with_which_rig_it_was_made(tmp_path: Path):
         }
 
 
+def test_sensors_with_equal_ends_of_topics_keep_the_names_of_the_rig_in_the_file(tmp_path: Path):
+    names = ["left arm/front/0", "right arm/front/0", "right arm/front/1"]
+    places = [replace(rig().sensors[0], name=name, ring=name[:-2]) for name in names]
+    path = tmp_path / "x.mcap"
+    few(path, replace(rig(), sensors=tuple(places)))
+    with open_recording(path) as recording:
+        assert recording.warnings == ()
+        assert [(s.name, s.ring) for s in recording.sensors] == [(n, n[:-2]) for n in names]
+        assert {s.grid for s in recording.sensors} == {(4, 4)}
+
+
 def test_a_rig_on_links_that_the_robot_has_not_is_refused(tmp_path: Path):
     other = replace(rig(), sensors=(Sensor("eye", "", "wheel", np.eye(4)),))
     with pytest.raises(RigError, match="fixes sensor eye to link wheel, which the robot panda"):
