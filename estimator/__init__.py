@@ -26,6 +26,7 @@ from estimator.metrics import (
 from estimator.parameter_info import CheckedParameters, ParameterError, ParameterInfo, parameter
 from estimator.parameter_values import changed, from_nested, to_nested, values_of
 from estimator.parameters import PARAMETER_INFO, Parameters, method_names
+from estimator.stages import Stages
 from estimator.window import LazyFrames, Window, window_of_pair
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "PlainCloud",
     "PooledErrors",
     "SceneFlow",
+    "Stages",
     "StoryRow",
     "Tracker",
     "Window",

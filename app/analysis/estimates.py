@@ -6,9 +6,9 @@ from app.analysis.cache import Memory
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
 from app.analysis.pair_estimator import PairEstimator
-from app.analysis.pairs import Pair, PreparedPair, prepare_pair
+from app.analysis.pairs import Pair, PreparedPair, make_pair, window_of
 from app.analysis.timeline import Outline
-from estimator import Parameters, estimate_scene_flow
+from estimator import Parameters, Stages, estimate_scene_flow
 from recordings import Cloud
 
 
@@ -37,7 +37,7 @@ class Estimates:
         self, clouds: int = 400, pairs: int = 200, flows: int = 400, estimators: int = 16
     ) -> None:
         self._clouds: Memory[tuple, Cloud] = Memory(clouds)
-        self._prepared: Memory[tuple, PreparedPair] = Memory(pairs)
+        self._prepared: Memory[tuple, tuple[Pair, Stages]] = Memory(pairs)
         self._pairs: Memory[tuple, Pair] = Memory(flows)
         self._estimators: Memory[tuple, PairEstimator] = Memory(estimators)
         self._outlines: Memory[tuple, Outline] = Memory(16)
@@ -94,16 +94,15 @@ class Estimates:
         return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
 
     def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> PreparedPair:
-        max_range = parameters.max_range
-        return self._prepared.get(
-            (opened.key, k, parameters.n, max_range),
-            lambda: prepare_pair(
-                opened.recording,
-                k,
-                parameters,
-                lambda frame: self._cloud(opened, frame, max_range),
-            ),
+        def load(frame: int) -> Cloud:
+            return self._cloud(opened, frame, parameters.max_range)
+
+        pair, stages = self._prepared.get(
+            (opened.key, k, parameters.n, parameters.max_range),
+            lambda: (make_pair(opened.recording, k, parameters, load), Stages()),
         )
+        # The window reads from the recording, which may be closed before it is forgotten here.
+        return PreparedPair(pair, window_of(pair, opened.recording, load, stages))
 
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)

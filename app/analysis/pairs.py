@@ -17,6 +17,7 @@ from estimator import (
     Parameters,
     PooledErrors,
     SceneFlow,
+    Stages,
     Window,
 )
 from recordings import Cloud, PairTruth, Recording
@@ -36,6 +37,7 @@ class Pair:
         truth: over the interval, None where it is not known.
         flow: None without a source, or where nothing was estimated yet.
         milliseconds: how long the estimate took, NaN without one.
+        n: frames between source and target, 0 without a source.
     """
 
     frame: int
@@ -46,6 +48,7 @@ class Pair:
     truth: PairTruth | None
     flow: SceneFlow | None = field(default=None)
     milliseconds: float = field(default=float("nan"))
+    n: int = 0
 
     @property
     def object_velocity(self) -> NDArray[np.float64] | None:
@@ -105,32 +108,60 @@ class PreparedPair:
     window: Window | None
 
 
-def prepare_pair(
-    recording: Recording,
-    k: int,
-    parameters: Parameters,
-    cloud: Callable[[int], Cloud] | None = None,
-) -> PreparedPair:
+LoadCloud = Callable[[int], Cloud]
+"""Gives the cloud of a frame."""
+
+
+def prepare_pair(recording: Recording, k: int, parameters: Parameters) -> PreparedPair:
     """Put the pair (k-n, k) of a recording together, without an estimate.
 
     Args:
-        recording: what is estimated.
+        recording: to be estimated.
         k: the target's frame.
         parameters: of which `n` and `max_range` decide.
-        cloud: gives the cloud of a frame at `max_range` where clouds are kept, else None.
 
     Raises:
         RecordingError: the file is broken there. Frames between are read when a method asks for
             them, and may raise it then.
     """
-    source_k, max_range = k - parameters.n, parameters.max_range
-    load = cloud or (lambda frame: recording.cloud(frame, max_range))
+
+    def load(frame: int) -> Cloud:
+        return recording.cloud(frame, parameters.max_range)
+
+    pair = make_pair(recording, k, parameters, load)
+    return PreparedPair(pair, window_of(pair, recording, load, Stages()))
+
+
+def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCloud) -> Pair:
+    """Clouds, interval and truth of the pair (k-n, k); arguments and errors as `prepare_pair`."""
+    source_k = k - parameters.n
     target, link_poses = load(k), recording.link_poses(k)
     if source_k < 0:
-        return PreparedPair(Pair(k, target, None, float("nan"), link_poses, None), None)
-    source, n = load(source_k), parameters.n
-    frames = LazyFrames(n + 1, lambda index: load(source_k + index), {0: source, n: target})
-    window = Window(frames, recording.stamps[source_k : k + 1])
-    truth = recording.pair_truth(source_k, k, max_range)
-    pair = Pair(k, target, source, window.interval, link_poses, truth)
-    return PreparedPair(pair, window)
+        return Pair(k, target, None, float("nan"), link_poses, None)
+    return Pair(
+        frame=k,
+        target=target,
+        source=load(source_k),
+        interval=float(recording.stamps[k] - recording.stamps[source_k]),
+        link_poses=link_poses,
+        truth=recording.pair_truth(source_k, k, parameters.max_range),
+        n=parameters.n,
+    )
+
+
+def window_of(pair: Pair, recording: Recording, load: LoadCloud, stages: Stages) -> Window | None:
+    """The frames from a pair's source to its target, None without a source.
+
+    Args:
+        pair: of the recording.
+        recording: from which frames between are read when a method asks for them.
+        load: reads them.
+        stages: results of the pair's earlier estimates.
+    """
+    if pair.source is None:
+        return None
+    first = pair.frame - pair.n
+    frames = LazyFrames(
+        pair.n + 1, lambda index: load(first + index), {0: pair.source, pair.n: pair.target}
+    )
+    return Window(frames, recording.stamps[first : pair.frame + 1], stages)

@@ -12,6 +12,11 @@ from robot_assets import Transform
 UNKNOWN: Transform = np.full((4, 4), np.nan)
 
 
+def node_name(index: int, name: str) -> str:
+    """Name of a scene node for thing number `index`; a slash would put it below another node."""
+    return f"{index}_{name.replace('/', '_')}"
+
+
 def place(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) -> None:
     """Move nodes to `poses` (S, 4, 4) in their parents' frames; viser sends only what has changed.
 

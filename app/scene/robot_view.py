@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import viser
 
-from app.scene.placing import UNKNOWN, place
+from app.scene.placing import UNKNOWN, node_name, place
 from app.scene.shapes import RobotShape
 from app.scene.stage import FIXED
 from robot_assets import Transform
@@ -19,11 +19,12 @@ class RobotView:
     def __init__(self, scene: viser.SceneApi, shape: RobotShape) -> None:
         self.digest = shape.digest
         self._links: dict[str, viser.FrameHandle] = {}
-        for link, parts in shape.links.items():
-            self._links[link] = scene.add_frame(f"{ROOT}/{link}", show_axes=False, visible=False)
+        for number, (link, parts) in enumerate(shape.links.items()):
+            node = f"{ROOT}/{node_name(number, link)}"
+            self._links[link] = scene.add_frame(node, show_axes=False, visible=False)
             for index, part in enumerate(parts):
                 scene.add_mesh_simple(
-                    f"{ROOT}/{link}/{index}", part.vertices, part.faces, color=part.colour
+                    f"{node}/{index}", part.vertices, part.faces, color=part.colour
                 )
 
     def show(self, link_poses: Mapping[str, Transform]) -> None:

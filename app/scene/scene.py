@@ -172,16 +172,22 @@ class Scene:
             self._lens = lens
             self._fit(lens)
 
-    def show(self, pair: Pair, second: Pair | None = None, side: str = A) -> None:
+    def show(
+        self,
+        pair: Pair,
+        second: Pair | None = None,
+        side: str = A,
+        picked: ClusterResult | None = None,
+    ) -> None:
         """Draw a pair; what has not changed since the last one is not sent again.
 
         Args:
             pair: to be drawn.
             second: of the same frame, whose flow is drawn too, each in a colour of its own.
             side: which of A and B the first one is, where both are drawn.
+            picked: cluster of the pair that is marked, None for none.
         """
         before, self._shown, self._second, self._side = self._shown, pair, second, side
-        self._marked = None
         if before is None or before.target is not pair.target:
             self._clouds.show_target(pair.target.points)
             if self._robot:
@@ -189,19 +195,18 @@ class Scene:
             if self._sensors:
                 self._sensors.show(pair.target.T_fixed_sensor)
         self._speed_limit = speed_limit(pair, self._speed_limit)
-        self._show_source(pair)
+        self.mark(pair, picked)
         self._show_flow(pair)
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
-        """Mark a cluster of a pair as picked, or none."""
-        before, self._marked = self._marked, cluster
+        """Mark a cluster of a pair as picked, or none, and draw the other source points."""
+        self._marked = cluster
         if self._selection is None and cluster is not None:
             palette = self._settings.palette
             self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
         if self._selection:
             self._selection.show(pair, cluster, self._turn[2])
-        if before is not cluster:
-            self._show_source(pair)
+        self._show_source(pair)
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
         """A point or a direction (3,) of the drawing in the recording's fixed frame."""

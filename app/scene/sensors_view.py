@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from app.scene.colours import FRUSTUM, SENSOR
 from app.scene.palettes import Palette
-from app.scene.placing import place
+from app.scene.placing import node_name, place
 from app.scene.shapes import ring_through
 from app.scene.stage import FIXED
 from recordings import RecordedSensor
@@ -28,18 +28,23 @@ class SensorsView:
         self._sensors = tuple(sensors)
         self._ringed = False
         self._thicker = 1.0
+        self._names = [node_name(index, sensor.name) for index, sensor in enumerate(sensors)]
         self._bodies = [
-            scene.add_frame(f"{SENSORS}/{s.name}", show_axes=False, visible=False) for s in sensors
+            scene.add_frame(f"{SENSORS}/{name}", show_axes=False, visible=False)
+            for name in self._names
         ]
-        for sensor in sensors:
+        for name in self._names:
             scene.add_box(
-                f"{SENSORS}/{sensor.name}/body",
+                f"{SENSORS}/{name}/body",
                 color=SENSOR,
                 dimensions=_BODY,
                 # The box lies behind the optical centre, where the chip is.
                 position=(0.0, 0.0, -_BODY[2] / 2),
             )
-        self._frustums = [_add_frustum(scene, sensor) for sensor in sensors]
+        self._frustums = [
+            _add_frustum(scene, f"{FRUSTUMS}/{name}", sensor)
+            for name, sensor in zip(self._names, sensors, strict=True)
+        ]
 
     def show(self, poses: NDArray[np.float64]) -> None:
         """Move the sensors to their poses T_fixed_sensor (S, 4, 4), NaN where not known."""
@@ -75,14 +80,16 @@ class SensorsView:
             band = ring_through(poses[members, :3, 3])
             if band is not None:
                 band.apply_transform(np.linalg.inv(poses[members[0]]))
-                name = f"{SENSORS}/{self._sensors[members[0]].name}/ring"
+                name = f"{SENSORS}/{self._names[members[0]]}/ring"
                 self._scene.add_mesh_simple(name, band.vertices, band.faces, color=SENSOR)
 
 
-def _add_frustum(scene: viser.SceneApi, sensor: RecordedSensor) -> viser.CameraFrustumHandle:
+def _add_frustum(
+    scene: viser.SceneApi, node: str, sensor: RecordedSensor
+) -> viser.CameraFrustumHandle:
     half_width, half_height = half_extents(sensor.directions)
     return scene.add_camera_frustum(
-        f"{FRUSTUMS}/{sensor.name}",
+        node,
         fov=2 * float(np.arctan(half_height)),
         aspect=half_width / half_height,
         # viser scales a frustum by its volume; this is what makes it _DEPTH long.

@@ -148,7 +148,8 @@ class Workbench:
         """Pick the cluster with this index, or none."""
         if self.pair is not None:
             self._selection.pick(self.pair, cluster)
-            self._mark(self.pair)
+            self._picked = self._selection.follow(self.pair)
+            self.scene.mark(self.pair, cluster_of(self.pair, self._picked))
 
     def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> None:
         """Pick the cluster under a ray (3,), (3,) of the drawing, or none if it misses all."""
@@ -267,8 +268,13 @@ class Workbench:
         found = compared(self.estimates, opened, frame, parameters, comparison)
         self.pair, self._other = found.pair, found.other
         with self._client.atomic():
-            self.scene.show(found.pair, found.second, comparison.edited if comparison else A)
-            self._mark(found.pair)
+            self._picked = self._selection.follow(found.pair)
+            self.scene.show(
+                found.pair,
+                found.second,
+                comparison.edited if comparison else A,
+                cluster_of(found.pair, self._picked),
+            )
             if self._drawn is None or self._drawn[0] is not opened:
                 self.framing.begin(found.pair)
             else:
@@ -276,7 +282,3 @@ class Workbench:
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem
-
-    def _mark(self, pair: Pair) -> None:
-        self._picked = self._selection.follow(pair)
-        self.scene.mark(pair, cluster_of(pair, self._picked))

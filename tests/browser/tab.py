@@ -55,6 +55,13 @@ class Tab:
         types += "([_, node]) => node.message.type === 'CameraFrustumMessage').map(([n]) => n)"
         return sorted(n.removeprefix(root) for n in self.page.evaluate(types) if n.startswith(root))
 
+    def node(self, below: str, name: str) -> str:
+        """The node of a robot's link, or of a sensor, below a node of the fixed frame."""
+        root = f"{FIXED}/{below}/"
+        found = self.page.evaluate("() => Object.keys(window.__viserSceneTree.getState())")
+        [node] = [n for n in found if n.startswith(root) and n.endswith(f"_{name}")]
+        return node.removeprefix(f"{FIXED}/")
+
     def poses(self, names: list[str]) -> NDArray[np.float64]:
         """World poses (N, 4, 4) of nodes below the fixed frame, as the browser draws them."""
         values = self.page.evaluate(_POSES, [f"{FIXED}/{name}" for name in names])

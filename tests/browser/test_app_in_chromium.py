@@ -11,16 +11,16 @@ def test_24_frustums_follow_the_arm(tab: Tab):
     tab.until(lambda: tab.has_text("Simulated: robot_moving"))
     names = tab.frustums()
     assert len(names) == 24
-    sensors = [f"frustums/{name}" for name in names]
+    sensors, link = [f"frustums/{name}" for name in names], tab.node("robot", "panda_link7")
     tab.set_slider("Frame", "Home")
     tab.until(lambda: tab.has_text("Frame 0 of"))
-    before, hand = tab.poses(sensors), tab.poses(["robot/panda_link7"])
+    before, hand = tab.poses(sensors), tab.poses([link])
     tab.set_slider("Frame", "End")
-    tab.until(lambda: not np.allclose(tab.poses(["robot/panda_link7"]), hand))
+    tab.until(lambda: not np.allclose(tab.poses([link]), hand))
     tab.page.wait_for_timeout(300)
-    after, hand_after = tab.poses(sensors), tab.poses(["robot/panda_link7"])
-    ring = [i for i, name in enumerate(names) if name.startswith("end_effector")]
-    base = [i for i, name in enumerate(names) if name.startswith("base")]
+    after, hand_after = tab.poses(sensors), tab.poses([link])
+    ring = [i for i, name in enumerate(names) if "_end_effector_" in name]
+    base = [i for i, name in enumerate(names) if "_base_" in name]
     assert len(ring) == len(base) == 8
     np.testing.assert_allclose(after[base], before[base], atol=1e-6)
     # The ring on the end-effector moves with link 7, rigidly.

@@ -63,7 +63,7 @@ def test_stationary_points_can_be_switched_off_alone(scene, client, pair):
 
 
 def test_sensors_that_see_something_moving_are_highlighted(scene, client, pair):
-    frustum = client.node(f"{FIXED}/frustums/front")
+    frustum = client.node(f"{FIXED}/frustums/0_front")
     assert frustum.color == COLOURS.flow
     thick = frustum.thickness
     scene.show(Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5)))

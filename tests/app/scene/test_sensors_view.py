@@ -24,7 +24,7 @@ def test_a_narrow_field_of_view_keeps_its_shape():
 def test_sensors_without_a_known_pose_are_hidden(client):
     recording = fake_recording()
     view = SensorsView(client.scene, recording.sensors)
-    frustum = client.node(f"{FIXED}/frustums/front")
+    frustum = client.node(f"{FIXED}/frustums/0_front")
     assert not frustum.visible
     view.show(recording.cloud(3).T_fixed_sensor)
     assert frustum.visible
@@ -40,7 +40,7 @@ def test_a_rig_has_a_frustum_per_sensor_and_a_band_per_ring(client):
     view = SensorsView(client.scene, recording.sensors)
     view.show(recording.cloud(0).T_fixed_sensor)
     names = list(client.scene._handle_from_node_name)
-    frustums = [n for n in names if n.startswith(f"{FIXED}/frustums/") and n.count("/") == 4]
+    frustums = [n for n in names if n.startswith(f"{FIXED}/frustums/") and n.count("/") == 3]
     assert len(frustums) == 24
     assert len([n for n in names if n.endswith("/ring")]) == 3
     view.remove()

@@ -34,6 +34,7 @@ OF_ONE_CLIENT = (
 REMEMBERED = {
     "app.analysis.estimates",
     "app.analysis.cache",
+    "app.analysis.pairs",
     "app.analysis.survey",
     "app.analysis.comparison",
 }
