@@ -1,9 +1,13 @@
-"""What all tests share."""
+"""Settings and fixtures of all tests."""
 
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+import estimator.method
+import estimator.parameters
+from app.analysis import method_files
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 
@@ -19,3 +23,11 @@ def shared_data() -> Path:
     if not folder.is_dir():
         pytest.skip(f"{folder} is not here: it holds recordings made by others")
     return folder
+
+
+@pytest.fixture
+def methods_of_a_test(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Methods that are registered meanwhile are forgotten after the test."""
+    for module in (estimator.method, estimator.parameters):
+        monkeypatch.setattr(module, "_METHODS", dict(module._METHODS))
+    monkeypatch.setattr(method_files, "_loaded", {})

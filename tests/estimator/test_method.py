@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-import estimator.method
-import estimator.parameters
 from estimator import (
     CheckedParameters,
     CloudError,
@@ -28,6 +26,8 @@ from estimator import (
     values_of,
 )
 
+pytestmark = pytest.mark.usefixtures("methods_of_a_test")
+
 POINTS = np.arange(12.0).reshape(4, 3)
 
 
@@ -44,12 +44,6 @@ class Own(CheckedParameters):
 
 def flow(window: Window, parameters: Parameters) -> SceneFlow:
     return scene_flow_of_points(np.full((len(window.source.points), 3), parameters.of(Own).speed))
-
-
-@pytest.fixture(autouse=True)
-def _registered_for_a_test(monkeypatch):
-    monkeypatch.setattr(estimator.method, "_METHODS", dict(estimator.method._METHODS))
-    monkeypatch.setattr(estimator.parameters, "_METHODS", dict(estimator.parameters._METHODS))
 
 
 @pytest.fixture

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-import estimator.method
-import estimator.parameters
 from app.analysis import method_files
 from app.analysis.method_files import content_digest, is_method_file, load_method
 from app.errors import InputError
 from estimator import find_method, method_names
+
+pytestmark = pytest.mark.usefixtures("methods_of_a_test")
 
 FLOW = """
 from estimator import scene_flow_of_points
@@ -17,13 +17,6 @@ from estimator import scene_flow_of_points
 def still(window, parameters):
     return scene_flow_of_points(window.source.points * float("nan"))
 """
-
-
-@pytest.fixture(autouse=True)
-def _registered_for_a_test(monkeypatch):
-    monkeypatch.setattr(estimator.method, "_METHODS", dict(estimator.method._METHODS))
-    monkeypatch.setattr(estimator.parameters, "_METHODS", dict(estimator.parameters._METHODS))
-    monkeypatch.setattr(method_files, "_loaded", {})
 
 
 @pytest.fixture

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-import estimator.method
-import estimator.parameters
 from app.analysis import flows
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import Ask, evaluate, evaluate_all
@@ -32,9 +30,7 @@ class Memory:
 
 
 @pytest.fixture
-def tracked(monkeypatch):
-    monkeypatch.setattr(estimator.method, "_METHODS", dict(estimator.method._METHODS))
-    monkeypatch.setattr(estimator.parameters, "_METHODS", dict(estimator.parameters._METHODS))
+def tracked(methods_of_a_test):
     register(Method("memory", tracker=Memory, warm_up=WARM_UP))
     return Parameters(method="memory", n=N)
 

@@ -140,3 +140,12 @@ def test_a_restored_camera_has_its_sizes_at_once(client, pair):
     scene.show(pair)
     scene.stand(Camera((0.0, 2.0, 0.0), (0.0, 0.0, 0.0), 0.5))
     assert client.node(SOURCE_NODE).point_size == pytest.approx(5 / 720 * 2 * np.tan(0.25))
+
+
+def test_a_frame_with_a_picked_cluster_sends_the_source_once(scene, client, pair, monkeypatch):
+    drawn, clouds = [], scene._clouds
+    real = clouds.show_source
+    monkeypatch.setattr(clouds, "show_source", lambda *a: drawn.append(len(a[0])) or real(*a))
+    (moving,) = [c for c in pair.flow.clusters if c.label == Label.MOVING]
+    scene.show(pair, picked=moving)
+    assert drawn == [len(pair.source.points) - len(moving.source)]
