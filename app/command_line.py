@@ -1,6 +1,7 @@
 """The command `tofscope`: one module of `app.commands` per subcommand."""
 
 import argparse
+import logging
 import os
 import sys
 from collections.abc import Sequence
@@ -9,6 +10,10 @@ from typing import NoReturn
 from app.commands import evaluate, export, info, simulate, study, view
 from app.commands.flags.parameter_flags import register_method_files
 from app.errors import UserError
+
+_LOG = logging.getLogger(__name__)
+_OURS = ("app", "estimator", "recordings", "robot_assets")
+_LOG_LEVELS = ("debug", "info", "warning", "error", "critical")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -29,7 +34,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for module in (view, info, simulate, evaluate, study, export):
         module.add_parser(commands)
+    for subcommand in commands.choices.values():
+        subcommand.add_argument(
+            "--log-level",
+            type=str.lower,
+            choices=_LOG_LEVELS,
+            default="warning",
+            help="least severe messages that are logged on standard error (default warning)",
+        )
     options = parser.parse_args(given)
+    _set_up_log(options.log_level)
     try:
         return options.run(options)
     except UserError as error:
@@ -41,3 +55,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of a pipe has gone: that is its right, and no error of ours.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except Exception as error:
+        _LOG.exception("Unexpected error.")
+        print(
+            f"tofscope {options.command}: something unexpected went wrong "
+            f"({type(error).__name__}: {error}); please report it with the lines above.",
+            file=sys.stderr,
+        )
+        return 1
+
+
+def _set_up_log(level: str) -> None:
+    """Log on standard error: our own messages from a level on, warnings of libraries."""
+    logging.basicConfig(format="%(asctime)s %(levelname)s %(name)s: %(message)s", stream=sys.stderr)
+    for package in _OURS:
+        logging.getLogger(package).setLevel(level.upper())

@@ -57,7 +57,8 @@ def _add_slider(
 ) -> viser.GuiSliderHandle[Any]:
     assert info.slider is not None
     low, high, step = (info.kind(end) for end in info.slider)
-    unit = f" {info.unit}" if info.kind is float and info.unit else ""
+    # A longer unit would run into the number beside the slider; the hint says it.
+    unit = f" {info.unit}" if info.kind is float and len(info.unit) == 1 else ""
     return gui.add_slider(
         label,
         # A flag may have asked for more than the slider offers.

@@ -1,5 +1,6 @@
 """One unit of a study's work: a recording, evaluated with every set of parameters it is for."""
 
+import logging
 import math
 import tempfile
 from collections.abc import Iterator
@@ -20,6 +21,7 @@ from recordings import Recording, open_recording
 from recordings.simulation import NOISE_MODELS, SCENARIOS, write_simulation
 from robot_assets import load_rig, load_robot
 
+_LOG = logging.getLogger(__name__)
 _LARGE = 0.5
 """Share of the speed above which the error of what moves is looked into."""
 SWEPT_SCENARIO = "towards"
@@ -164,6 +166,7 @@ def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
     except UserError as error:
         return Outcome(work.source, failure=str(error))
     except Exception as error:
+        _LOG.exception("Unexpected error in %s.", work.source.name)
         # One recording does not cost the others theirs.
         return Outcome(work.source, failure=f"{work.source.name}: {type(error).__name__}: {error}")
 
