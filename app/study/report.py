@@ -138,6 +138,7 @@ def _as_json(study: Study, tables: Sequence[Table]) -> dict[str, Any]:
         "seed": plan.seed if plan.recordings is None else None,
         "noise": plan.noise if plan.recordings is None else None,
         "imperfections": plan.imperfections if plan.recordings is None else None,
+        "rig": plan.rig.name if plan.rig else None,
         "versions": versions(),
         "software": software_digest(plan.method_files),
         "paper": paper_numbers().source,
@@ -171,12 +172,12 @@ def _first(study: Study) -> page.Section:
     plan = study.plan
     blocks: list[str] = []
     if plan.recordings is None:
+        rig = f"the rig {plan.rig.name}" if plan.rig else "a rig whose dimensions are ours"
         blocks.append(
             page.paragraph(
                 "Everything here is simulated: the paper's recordings are not public. These are "
                 f"{len(plan.sources())} recordings made by ray casting, as its experiments are "
-                "described, with a rig whose dimensions are ours; the paper's own numbers stand "
-                "beside.",
+                f"described, with {rig}; the paper's own numbers stand beside.",
                 "simulated",
             )
         )

@@ -49,6 +49,53 @@ def test_a_study_leaves_tables_figure_and_a_page_to_read_first(tiny: Path):
         assert (tiny / link).is_file()
 
 
+RIG = """
+name = "One wide sensor"
+
+[sensor_model]
+name = "VL53L5CX"
+rows = 4
+columns = 4
+field_of_view_deg = 60.0
+min_range_m = 0.02
+max_range_m = 4.0
+distance = "perpendicular"
+reading_order = "row_major"
+flip_vertical = false
+flip_horizontal = false
+
+[[sensors]]
+name = "base"
+link = "panda_link0"
+position_m = [0.1, 0.0, 0.2]
+forward = [0.0, 1.0, 0.0]
+up = [0.0, 0.0, 1.0]
+"""
+
+
+def test_a_study_simulates_with_a_rig_of_ones_own_and_says_so(tmp_path: Path):
+    rig = tmp_path / "wide.toml"
+    rig.write_text(RIG)
+    out = tmp_path / "out"
+    assert study(out, *TINY[:-3], "--sweep", "--rig", str(rig)) == 0
+    assert "with the rig wide.toml" in (out / "index.html").read_text("utf-8")
+    assert "rig wide.toml, noise model" in (out / "tables" / "metrics.md").read_text("utf-8")
+    assert f"--rig {rig}" in (out / "index.html").read_text("utf-8")
+    tables = json.loads((out / "tables" / "tables.json").read_text("utf-8"))
+    assert tables["rig"] == "wide.toml"
+    [kept] = (out / "results").glob("*.json")
+    rig.write_text(RIG.replace("60.0", "45.0"))
+    assert study(out, *TINY[:-3], "--sweep", "--rig", str(rig)) == 0
+    assert len(list((out / "results").glob("*.json"))) == 2, f"{kept} was taken for another rig's"
+
+
+def test_a_rig_that_cannot_be_used_ends_a_study_before_it_begins(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    assert study(tmp_path / "out", *TINY, "--rig", str(tmp_path / "none.toml")) == 1
+    assert "cannot be read as a rig file" in capsys.readouterr().err
+
+
 def test_tables_hold_what_evaluate_finds_on_the_same_recording(tiny: Path, tmp_path: Path):
     file, found = tmp_path / "a.mcap", tmp_path / "a.json"
     asked = ["towards", "--speed", "0.3", "--trial", "1", "--out", str(file)]
