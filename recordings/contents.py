@@ -12,8 +12,8 @@ from recordings.errors import BrokenFileError, RecordingError
 from recordings.grids import SIZES, Grid, is_grid, shown
 from recordings.mcap_contents import ChannelInfo
 from recordings.mcap_file import McapFile
+from recordings.range_formats import range_format
 
-DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _STATUS_ENCODINGS = ("8UC1", "mono8")
 _TRUTH_NAMES = ("target", "truth")
 
@@ -34,7 +34,7 @@ class Use(StrEnum):
     NOTHING = "not used"
 
 
-_WITH_GRID = (Use.DEPTH, Use.STATUS, Use.CAMERA_INFO)
+_WITH_GRID = (Use.STATUS, Use.CAMERA_INFO)
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def _runs(text: str) -> list[tuple[bool, str]]:
 
 def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     kind = channel.schema_name.replace("/msg/", "/")
-    if kind not in _BY_TYPE:
+    if kind not in _BY_TYPE and range_format(kind) is None:
         return Topic(channel, Use.NOTHING, f"{channel.schema_name or 'its type'} is not needed")
     if not decoder.can_decode(channel):
         encoding = f"{channel.encoding} with schema {channel.schema_encoding or 'none'}"
@@ -141,22 +141,26 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
         raise
     except RecordingError:
         return Topic(channel, Use.NOTHING, "its first message does not fit its type")
-    use = _BY_TYPE[kind](channel.topic, first)
+    return _by_content(channel, kind, first)
+
+
+def _by_content(channel: ChannelInfo, kind: str, first: Any) -> Topic:  # noqa: ANN401
+    """The use of a channel of a known type, by its first message."""
     frame = first.header.frame_id.lstrip("/") if hasattr(first, "header") else ""
+    use = _BY_TYPE[kind](channel.topic, first) if kind in _BY_TYPE else ""
     if isinstance(use, Use):
         grid = (first.height, first.width) if use in _WITH_GRID else None
         return Topic(channel, use, frame=frame, grid=grid)
-    return Topic(channel, Use.NOTHING, use, frame)
+    ranges = range_format(kind)
+    found = ranges.grid(first) if ranges else use
+    if isinstance(found, str):
+        return Topic(channel, Use.NOTHING, found, frame)
+    return Topic(channel, Use.DEPTH, frame=frame, grid=found)
 
 
 def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded message)
-    if not is_grid(image.height, image.width):
-        return f"it is {shown((image.height, image.width))}, and a sensor has {SIZES}"
-    if image.encoding in DEPTH_ENCODINGS:
-        return Use.DEPTH
-    if image.encoding in _STATUS_ENCODINGS:
-        return Use.STATUS
-    return f"its encoding {image.encoding!r} is no distance"
+    is_status = is_grid(image.height, image.width) and image.encoding in _STATUS_ENCODINGS
+    return Use.STATUS if is_status else "it is no status"
 
 
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401

@@ -249,7 +249,7 @@ class Recording:
             status = decoder.decode(stream.status.channel, int(row))
         try:
             codes = status_codes(status, stream.sensor) if status is not None else None
-            return readings(image, status, stream.sensor), codes
+            return readings(image, status, stream.sensor, stream.form), codes
         except RecordingError as error:
             # One bad image does not cost the frame; the sensor shows nothing there.
             self._said[f"{stream.topic.name}: {error} Such images are left out."] = None

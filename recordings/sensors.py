@@ -7,10 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.contents import DEPTH_ENCODINGS, Topic, Use, camera_matrix, parent
+from recordings.contents import Topic, Use, camera_matrix, parent
 from recordings.decoding import Decoder
+from recordings.depth_images import DEPTH_IMAGE, pixels
 from recordings.errors import RecordingError
 from recordings.grids import Grid, shown
+from recordings.range_format import RangeFormat
+from recordings.range_formats import range_format
 from recordings.rig_record import depth_topic, topic_part
 from recordings.sensor_names import names_and_rings
 from robot_assets import Rig, SensorModel, plain_name, zone_rays
@@ -121,30 +124,30 @@ def _grid(topic: Topic) -> Grid:
     return topic.grid
 
 
-def readings(image: Any, status: Any | None, sensor: RecordedSensor) -> NDArray[np.float64]:  # noqa: ANN401
-    """The readings (rows, columns) in metres of a depth image, NaN where there is none.
-
-    16 bit images hold millimetres with 0 for invalid, 32 bit ones metres with NaN (REP 118).
-    A recording's first image told that it is one of these; a later one may still be another.
+def readings(
+    message: Any,  # noqa: ANN401 (a decoded message)
+    status: Any | None,  # noqa: ANN401
+    sensor: RecordedSensor,
+    form: RangeFormat = DEPTH_IMAGE,
+) -> NDArray[np.float64]:
+    """The readings (rows, columns) in metres of a message with ranges, NaN where there is none.
 
     Args:
-        image: sensor_msgs/Image.
+        message: of the format's type. The first of a topic decided on the format; a later one may
+            still be of another size.
         status: sensor_msgs/Image with ST's target status of the same reading, None without.
         sensor: that it is from.
+        form: of the message.
 
     Raises:
-        RecordingError: an image is of another kind or size, or has fewer bytes than that says.
+        RecordingError: a message is of another kind or size, or has fewer bytes than that says.
     """
-    grid = sensor.images or sensor.grid
-    if (image.height, image.width) != grid or image.encoding not in DEPTH_ENCODINGS:
-        raise RecordingError(
-            f"An image of {image.header.frame_id} is {image.width} x {image.height} in "
-            f"{image.encoding!r}, and not {shown(grid)} distances."
-        )
-    kind = np.dtype(np.float32 if image.encoding == "32FC1" else np.uint16)
-    values = pixels(image, kind).astype(np.float64)
-    if kind == np.uint16:
-        values /= 1000.0
+    grid, found = sensor.images or sensor.grid, form.grid(message)
+    if found != grid:
+        frame = message.header.frame_id if hasattr(message, "header") else sensor.name
+        held = found if isinstance(found, str) else f"it is {shown(found)}"
+        raise RecordingError(f"A message of {frame}: {held}, and not {shown(grid)} distances.")
+    values = form.ranges(message)
     with np.errstate(invalid="ignore"):
         valid = np.isfinite(values) & (values > 0)
     if status is not None:
@@ -172,25 +175,6 @@ def _status_pixels(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  #
             f"not {shown(grid)}."
         )
     return pixels(status, np.dtype(np.uint8))
-
-
-def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
-    """The pixels (height, width) of an image as numbers of a kind.
-
-    Raises:
-        RecordingError: the image has fewer bytes than its size says.
-    """
-    rows, columns = image.height, image.width
-    needed = (rows - 1) * image.step + columns * kind.itemsize
-    if image.step < columns * kind.itemsize or len(image.data) < needed:
-        raise RecordingError(
-            f"An image of {image.header.frame_id} has {len(image.data)} bytes in rows of "
-            f"{image.step}, too few for {columns} x {rows} zones in {image.encoding}."
-        )
-    order = ">" if image.is_bigendian else "<"
-    data = np.frombuffer(bytes(image.data), dtype=np.uint8)
-    lines = [data[r * image.step : r * image.step + columns * kind.itemsize] for r in range(rows)]
-    return np.stack(lines).view(kind.newbyteorder(order)).astype(kind)
 
 
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
@@ -231,12 +215,14 @@ class DepthStream:
         sensor: that they are from.
         status: topic of the target status beside them, None without.
         status_index: index of the status message of each depth message, -1 where it has none.
+        form: of the messages.
     """
 
     topic: Topic
     sensor: RecordedSensor
     status: Topic | None
     status_index: NDArray[np.int64]
+    form: RangeFormat
 
 
 def depth_stream(
@@ -250,4 +236,6 @@ def depth_stream(
     if status is not None:
         row_of = {int(t): row for row, t in enumerate(decoder.header_stamps(status.channel))}
         index[:] = [row_of.get(int(t), -1) for t in stamps]
-    return DepthStream(topic, sensor, status, index)
+    form = range_format(topic.channel.schema_name)
+    assert form is not None  # or the topic would not be used as ranges
+    return DepthStream(topic, sensor, status, index, form)

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from recordings import RecordedSensor, RecordingError
-from recordings.sensors import pixels, readings
+from recordings.depth_images import pixels
+from recordings.sensors import readings
 from robot_assets import SensorModel
 
 SENSOR = RecordedSensor(

@@ -1,0 +1,54 @@
+"""Ranges in images: sensor_msgs/Image with a zone per pixel."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.errors import RecordingError
+from recordings.grids import SIZES, Grid, is_grid, shown
+from recordings.range_format import RangeFormat
+
+_ENCODINGS = ("16UC1", "mono16", "32FC1")
+
+
+def depth_grid(image: Any) -> Grid | str:  # noqa: ANN401 (a decoded message)
+    """Rows and columns of a depth image, or the reason why it is none."""
+    if not is_grid(image.height, image.width):
+        return f"it is {shown((image.height, image.width))}, and a sensor has {SIZES}"
+    if image.encoding not in _ENCODINGS:
+        return f"its encoding {image.encoding!r} is no distance"
+    return image.height, image.width
+
+
+def depth_ranges(image: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Ranges (rows, columns) in metres: 16 bit are millimetres, 32 bit metres (REP 118).
+
+    Raises:
+        RecordingError: the image has fewer bytes than its size says.
+    """
+    if image.encoding == "32FC1":
+        return pixels(image, np.dtype(np.float32)).astype(np.float64)
+    return pixels(image, np.dtype(np.uint16)).astype(np.float64) / 1000.0
+
+
+def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
+    """The pixels (height, width) of an image as numbers of a kind.
+
+    Raises:
+        RecordingError: the image has fewer bytes than its size says.
+    """
+    rows, columns = image.height, image.width
+    needed = (rows - 1) * image.step + columns * kind.itemsize
+    if image.step < columns * kind.itemsize or len(image.data) < needed:
+        raise RecordingError(
+            f"An image of {image.header.frame_id} has {len(image.data)} bytes in rows of "
+            f"{image.step}, too few for {columns} x {rows} zones in {image.encoding}."
+        )
+    order = ">" if image.is_bigendian else "<"
+    data = np.frombuffer(bytes(image.data), dtype=np.uint8)
+    lines = [data[r * image.step : r * image.step + columns * kind.itemsize] for r in range(rows)]
+    return np.stack(lines).view(kind.newbyteorder(order)).astype(kind)
+
+
+DEPTH_IMAGE = RangeFormat("sensor_msgs/Image", depth_grid, depth_ranges)
