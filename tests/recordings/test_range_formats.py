@@ -54,13 +54,13 @@ def _with_scans(monkeypatch: pytest.MonkeyPatch):
 
 @pytest.mark.usefixtures("_with_scans")
 def test_a_format_is_all_that_a_type_of_ranges_needs(tmp_path: Path):
-    path = write_scans(tmp_path / "a.mcap", [1.0, 2.0, 0.0, np.inf], [1.5, 2.5, 3.5, 3.9])
+    path = write_scans(tmp_path / "a.mcap", [1.0, 2.0, 0.0, np.inf], [1.5, 2.5, 3.5, 3.75])
     with open_recording(path) as recording:
         [sensor] = recording.sensors
         assert sensor.grid == (2, 2)
         assert recording.cloud(0).points[:, 2].tolist() == [1.0, 2.0]
         assert np.isnan(recording.cloud(0).ranges[0, 1]).all()
-        assert recording.cloud(1, max_range=10.0).points[:, 2].tolist() == [1.5, 2.5, 3.5, 3.9]
+        assert recording.cloud(1, max_range=10.0).points[:, 2].tolist() == [1.5, 2.5, 3.5, 3.75]
 
 
 @pytest.mark.usefixtures("_with_scans")
