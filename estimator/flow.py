@@ -18,8 +18,17 @@ class Label(IntEnum):
     MOVING = 2
 
 
+class ReadOnlyArrays:
+    """Base of dataclasses whose arrays cannot be written to: threads and sessions share them."""
+
+    def __post_init__(self) -> None:
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+
+
 @dataclass(frozen=True)
-class Cluster:
+class Cluster(ReadOnlyArrays):
     """A cluster of the merged cloud.
 
     Attributes:
@@ -34,7 +43,7 @@ class Cluster:
 
 
 @dataclass(frozen=True)
-class IcpRound:
+class IcpRound(ReadOnlyArrays):
     """One turn of Algorithm 1's loop over a cluster.
 
     Attributes:
@@ -76,7 +85,7 @@ class StoryRow:
 
 
 @dataclass(frozen=True)
-class ClusterResult:
+class ClusterResult(ReadOnlyArrays):
     """Outcome of one cluster, and the reason for it.
 
     Attributes:
@@ -119,7 +128,7 @@ class ClusterResult:
 
 
 @dataclass(frozen=True)
-class SceneFlow:
+class SceneFlow(ReadOnlyArrays):
     """The flow of one pair.
 
     Attributes:
@@ -133,10 +142,6 @@ class SceneFlow:
     velocity: NDArray[np.float64]
     cluster: NDArray[np.int64]
     clusters: tuple[ClusterResult, ...]
-
-    def __post_init__(self) -> None:
-        for values in (self.label, self.velocity, self.cluster):
-            values.setflags(write=False)  # results are shared between sessions and threads
 
     @property
     def moving(self) -> NDArray[np.bool_]:

@@ -179,7 +179,13 @@ def test_a_tracker_sees_a_single_pair_as_its_first():
 
 
 def test_results_cannot_be_written_to():
-    found = estimate_scene_flow(POINTS, POINTS, 1.0, Parameters())
-    for values in (found.label, found.velocity, found.cluster):
+    steps = np.linspace(0.0, 0.2, 8)
+    patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
+    cloud = np.vstack([patch, patch + 2.0])
+    found = estimate_scene_flow(cloud, cloud + [0.05, 0.0, 0.0], 1.0, Parameters())
+    result = found.clusters[0]
+    of_cluster = (result.source, result.remaining, result.velocity)
+    of_round = (result.rounds[0].transformation, result.rounds[0].inlier_source)
+    for values in (found.label, found.velocity, found.cluster, *of_cluster, *of_round):
         with pytest.raises(ValueError, match="read-only"):
             values[0] = 0
