@@ -84,8 +84,7 @@ class TransformTree:
 
     def known(self, a: str, b: str, frames: int) -> NDArray[np.bool_]:
         """(K,) whether T_a_b is known at the first `frames` frames."""
-        finite = np.isfinite(self.over(a, b, frames))
-        return finite.reshape(frames, -1).all(axis=1)
+        return np.asarray(np.isfinite(self.over(a, b, frames)).all(axis=(1, 2)))
 
     def _between(self, a: str, b: str, frames: int | slice) -> Transform:
         """T_a_b (4, 4) at a frame, or (K, 4, 4) at several, (4, 4) where it never changes."""
