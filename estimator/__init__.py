@@ -1,9 +1,9 @@
-"""What moved: Algorithm 1, its baseline, and how far they are from the truth.
+"""Scene flow estimation: Algorithm 1, its baseline, and error metrics.
 
-Arrays in, results out: nothing here knows a file, a viewer or a command line.
+Arrays in, results out; no file, viewer or command line.
 """
 
-from estimator import methods as _built_in  # noqa: F401 (registers the methods that come along)
+from estimator import methods as _built_in  # noqa: F401 (registers the built-in methods)
 from estimator.cloud import Cloud, CloudError, PlainCloud
 from estimator.estimate import estimate, estimate_scene_flow
 from estimator.flow import (

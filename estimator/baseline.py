@@ -9,7 +9,7 @@ from estimator.window import Window
 
 
 def baseline(window: Window, parameters: Parameters) -> SceneFlow:
-    """Move every cluster of at least N_min points as its first ICP says; no gate, no removal."""
+    """Move every cluster of at least N_min points by its first ICP; no gate, no removal."""
     clusters = clusters_of(window, parameters)
     return scene_flow(
         len(window.source.points), [_move(cluster, window, parameters) for cluster in clusters]

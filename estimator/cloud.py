@@ -1,4 +1,4 @@
-"""Clouds that an estimate looks at: points, and the rays of the zones that they come from."""
+"""Clouds as methods see them: points, and the rays of the zones that measured them."""
 
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeGuard, runtime_checkable
@@ -6,16 +6,16 @@ from typing import Any, Protocol, TypeGuard, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-_FARTHEST = 1e100  # metres; squares of what is larger overflow, and HDBSCAN then never returns
+_FARTHEST = 1e100  # metres; squares of larger values overflow, and HDBSCAN then never returns
 
 
 class CloudError(ValueError):
-    """A cloud or an interval from which nothing can be estimated."""
+    """Cloud or interval that no flow can be estimated from."""
 
 
 @runtime_checkable
 class HasPoints(Protocol):
-    """Anything with points, such as a cloud of a recording."""
+    """Object with points, such as a cloud of a recording."""
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -25,7 +25,7 @@ class HasPoints(Protocol):
 
 @runtime_checkable
 class Cloud(HasPoints, Protocol):
-    """One frame as methods see it; a recording's clouds are such, and so is `PlainCloud`.
+    """One frame as methods see it: a cloud of a recording or a `PlainCloud`.
 
     S sensors have grids of at most R rows and C columns of zones. Arrays are read-only.
     """
@@ -68,7 +68,7 @@ class Cloud(HasPoints, Protocol):
 
 @dataclass(frozen=True)
 class PlainCloud:
-    """Points without sensors: a `Cloud` with no rays; see there for the attributes."""
+    """Points without sensors: a `Cloud` without rays; attributes as there."""
 
     points: NDArray[np.float64]
     sensor: NDArray[np.int64]
@@ -81,12 +81,12 @@ class PlainCloud:
 
 
 def plain_cloud(name: str, values: ArrayLike | HasPoints, stamp: float) -> Cloud:
-    """Check points, or a cloud's, and give them a cloud's form.
+    """Check points, or those of a cloud, and return them as a cloud.
 
     Args:
-        name: of the cloud, for the sentence.
-        values: (N, 3) metres, anything with such points, or a cloud, which is kept as it is.
-        stamp: seconds, for points that bring none.
+        name: of the cloud, for the error message.
+        values: (N, 3) metres, an object with such points, or a cloud, which is returned itself.
+        stamp: seconds, for points without a stamp.
 
     Raises:
         CloudError: the points have a wrong shape, type or size.
@@ -99,7 +99,7 @@ def plain_cloud(name: str, values: ArrayLike | HasPoints, stamp: float) -> Cloud
 
 
 def with_checked_points(name: str, cloud: Cloud) -> Cloud:
-    """The cloud itself.
+    """Check the points of a cloud and return the cloud.
 
     Raises:
         CloudError: its points have a wrong shape, type or size.
@@ -109,7 +109,7 @@ def with_checked_points(name: str, cloud: Cloud) -> Cloud:
 
 
 def read_only(values: NDArray[Any]) -> NDArray[Any]:
-    """The array, which cannot be written to any more."""
+    """Make an array read-only and return it."""
     values.setflags(write=False)
     return values
 
@@ -127,7 +127,7 @@ def _checked_points(name: str, values: ArrayLike) -> NDArray[np.float64]:
         points = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise CloudError(f"The {name} must hold numbers: {error}.") from error
-    if points.shape == (0,):  # an empty list says nothing of its columns
+    if points.shape == (0,):  # an empty list has no columns to check
         return read_only(np.zeros((0, 3)))
     if points.ndim != 2 or points.shape[1] != 3:
         raise CloudError(f"The {name} must have the shape (N, 3), got {points.shape}.")

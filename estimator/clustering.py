@@ -8,11 +8,11 @@ from estimator.window import Window
 
 
 def clusters_of(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
-    """Cluster the merged clouds with HDBSCAN, once for each setting of it.
+    """Cluster the merged clouds with HDBSCAN; the result is cached per setting.
 
     The target's points come first in the merged cloud: ties in HDBSCAN depend on the order, so
-    the order is fixed. Points that are not finite belong to no cluster. Fewer points than
-    HDBSCAN needs give no cluster.
+    the order is fixed. Points that are not finite belong to no cluster. With fewer points than
+    HDBSCAN needs there is no cluster.
     """
     settings = (
         parameters.min_cluster_size,

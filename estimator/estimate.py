@@ -1,4 +1,4 @@
-"""Estimate of the scene flow of a pair of clouds or of a window of frames."""
+"""Scene flow of a pair of clouds or of a window of frames."""
 
 from numpy.typing import ArrayLike
 
@@ -15,41 +15,41 @@ def estimate_scene_flow(
     interval: float,
     parameters: Parameters,
 ) -> SceneFlow:
-    """Estimate what moved between two clouds, with the method that the parameters name.
+    """Estimate the scene flow between two clouds with the method that the parameters name.
 
     Args:
         source: (N, 3) metres, P_{k-n}, or a cloud of a recording; N may be 0. Points that are not
             finite are Unassigned.
         target: (M, 3) metres, P_k, in the same frame, likewise.
         interval: seconds between the two stamps.
-        parameters: thresholds and method; `parameters.n` is not used, the caller chose the pair.
+        parameters: thresholds and method; `parameters.n` is ignored, the pair is given.
 
     Returns:
-        A label and a velocity for each source point, and the story of each cluster.
+        A label and a velocity for each source point, and a result for each cluster.
 
     Raises:
-        CloudError: a cloud of the wrong shape, or an interval not above zero; or the method looks
-            along rays, and these are plain points.
+        CloudError: a cloud has the wrong shape, the interval is not above zero, or the method
+            needs rays and the clouds are plain points.
     """
     return estimate(window_of_pair(source, target, interval), parameters)
 
 
 def estimate(window: Window, parameters: Parameters) -> SceneFlow:
-    """Estimate the scene flow of a window; a tracker sees this window as its first.
+    """Estimate the scene flow of a window; a tracker starts with this window.
 
-    Earlier results of the window's stages that these parameters do not change are used again:
-    with other γ, δ and N_min the clustering and all ICP rounds done so far stay.
+    Stages whose parameters did not change come from the window's cache: with another γ, δ or
+    N_min the clustering and the ICP rounds are not computed again.
 
     Raises:
-        CloudError: the method looks along rays, and the window holds plain points.
+        CloudError: the method needs rays and the window holds plain points.
     """
-    asked = find_method(parameters.method)
-    if asked.needs_rays and len(window.source.ranges) == 0:
+    method = find_method(parameters.method)
+    if method.needs_rays and len(window.source.ranges) == 0:
         raise CloudError(
-            f"Method {asked.name} looks along the rays of sensors; give it clouds of a recording "
+            f"Method {method.name} looks along the rays of sensors; give it clouds of a recording "
             "and not plain points."
         )
-    if asked.tracker is not None:
-        return asked.tracker(parameters).step(window)
-    assert asked.flow is not None  # `register` saw to it
-    return asked.flow(window, parameters)
+    if method.tracker is not None:
+        return method.tracker(parameters).step(window)
+    assert method.flow is not None  # checked by `register`
+    return method.flow(window, parameters)

@@ -44,15 +44,15 @@ class Cluster(ReadOnlyArrays):
 
 @dataclass(frozen=True)
 class IcpRound(ReadOnlyArrays):
-    """One turn of Algorithm 1's loop over a cluster.
+    """One iteration of Algorithm 1's loop over a cluster.
 
     Attributes:
-        source_size: source points that went in.
-        target_size: target points that went in.
+        source_size: number of source points given to ICP.
+        target_size: number of target points given to ICP.
         fitness: inlier correspondences / source points.
         inlier_rmse: root mean square distance of the inliers, metres.
         transformation: (4, 4), takes source points onto the target.
-        mean_displacement: mean over the source points of how far it moves them, metres.
+        mean_displacement: mean distance that it moves the source points, metres.
         inlier_source: indices into the source of the corresponding points.
         inlier_target: indices into the target of the corresponding points.
     """
@@ -69,13 +69,13 @@ class IcpRound(ReadOnlyArrays):
 
 @dataclass(frozen=True)
 class StoryRow:
-    """One line of a method's own account of a cluster, shown as it is.
+    """Row of a method's own explanation of a cluster, shown unchanged.
 
     Attributes:
         name: of the quantity.
         value: a number or a text.
         unit: "" where there is none.
-        threshold: number that the value was held against, None where there is none.
+        threshold: number that the value was compared with, None where there is none.
     """
 
     name: str
@@ -86,7 +86,7 @@ class StoryRow:
 
 @dataclass(frozen=True)
 class ClusterResult(ReadOnlyArrays):
-    """Outcome of one cluster, and the reason for it.
+    """Result of one cluster, with the reason for it.
 
     Attributes:
         index: the cluster's number, as in `SceneFlow.cluster`.
@@ -95,10 +95,10 @@ class ClusterResult(ReadOnlyArrays):
         remaining: indices of the source points left after the last removal; `label` is theirs.
         rounds: every ICP round in order, empty where the cluster was skipped at once. The inliers
             of a round left the cluster wherever another round follows or the label is UNASSIGNED.
-        label: of the remaining points. Inliers removed on the way are stationary.
+        label: of the remaining points. Removed inliers are stationary.
         velocity: (len(remaining), 3) m/s, NaN where `label` is not MOVING.
         reason: why it has this label, in words.
-        story: what else the method tells of it.
+        story: further rows of the method's explanation.
     """
 
     index: int
@@ -158,7 +158,7 @@ def cluster_result(
     velocity: NDArray[np.float64] | None = None,
     story: Sequence[StoryRow] = (),
 ) -> ClusterResult:
-    """Result of a cluster; `velocity` (len(remaining), 3) in m/s is given where it moves."""
+    """Make the result of a cluster; `velocity` (len(remaining), 3) m/s where it moves."""
     return ClusterResult(
         index=cluster.index,
         source=cluster.source,
@@ -173,7 +173,7 @@ def cluster_result(
 
 
 def scene_flow(source_size: int, clusters: Sequence[ClusterResult]) -> SceneFlow:
-    """Put the clusters' results together into labels and velocities of `source_size` points."""
+    """Combine the clusters' results into labels and velocities of `source_size` points."""
     label = np.full(source_size, Label.UNASSIGNED, dtype=np.int64)
     velocity = np.full((source_size, 3), np.nan)
     cluster = np.full(source_size, -1, dtype=np.int64)
@@ -188,11 +188,11 @@ def scene_flow(source_size: int, clusters: Sequence[ClusterResult]) -> SceneFlow
 def scene_flow_of_points(
     velocity: NDArray[np.float64], cluster: NDArray[np.int64] | None = None
 ) -> SceneFlow:
-    """Scene flow of a method that decides point by point.
+    """Make a scene flow from velocities of single points.
 
     Args:
         velocity: (N, 3) m/s of each source point that moves, NaN for one that does not.
-        cluster: (N,) index of each point's cluster, -1 for none; None puts all into none.
+        cluster: (N,) index of each point's cluster, -1 for none; None: no point has one.
     """
     moving = np.asarray(np.isfinite(velocity).all(axis=1))
     label = np.where(moving, Label.MOVING, Label.STATIONARY).astype(np.int64)

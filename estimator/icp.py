@@ -12,7 +12,7 @@ from estimator.flow import Indices
 
 @dataclass(frozen=True)
 class Registration:
-    """How a source was laid onto a target.
+    """Result of ICP.
 
     Attributes:
         transformation: (4, 4), takes source points onto the target.
@@ -32,7 +32,7 @@ class Registration:
 def register(
     source: NDArray[np.float64], target: NDArray[np.float64], max_correspondence_distance: float
 ) -> Registration:
-    """Find the rigid motion that takes `source` onto `target`, from the identity.
+    """Find the rigid motion that takes `source` onto `target`, starting from the identity.
 
     The source is P_{k-n} and the target P_k, as the paper's text says; its pseudocode lists the
     arguments the other way round.
@@ -42,7 +42,7 @@ def register(
         target: (M, 3) metres, M > 0.
         max_correspondence_distance: metres.
     """
-    # Open3D takes a second to import, which a command line's help need not wait for.
+    # Open3D takes a second to import, and the command line's help does not need it.
     import open3d as o3d
 
     result = o3d.pipelines.registration.registration_icp(
@@ -60,7 +60,7 @@ def register(
     return Registration(
         transformation=transformation,
         fitness=float(result.fitness),
-        # Open3D's own sum depends on how its threads share the points, in the last digit.
+        # Open3D's own value varies in the last digit with its threads.
         inlier_rmse=float(np.sqrt(squares.mean())) if len(squares) else 0.0,
         inlier_source=correspondences[:, 0],
         inlier_target=correspondences[:, 1],
@@ -69,9 +69,9 @@ def register(
 
 @cache
 def _settings() -> tuple[Any, Any]:
-    """Open3D's point-to-point estimation, and its own criteria of convergence.
+    """Open3D's point-to-point estimation, and its default convergence criteria.
 
-    They are named since fitness depends on where ICP stops.
+    They are given explicitly since fitness depends on where ICP stops.
     """
     import open3d as o3d
 

@@ -1,4 +1,4 @@
-"""Description of a method, its tracker, and the register of methods by name."""
+"""Descriptions of methods, trackers, and the registry of methods by name."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -14,36 +14,36 @@ SHARED = ("n", "max_range")
 
 
 class MethodError(Exception):
-    """A method that cannot be registered; the sentence says why."""
+    """Method that cannot be registered."""
 
 
 class Tracker(Protocol):
-    """A method with memory: it sees the windows of frames k, k+1, k+2 ... one after the other."""
+    """Method with memory: it is given the windows of frames k, k+1, k+2 ... in order."""
 
     def step(self, window: Window) -> SceneFlow:
-        """Estimate the flow of the next window, whose last frame follows the one before."""
+        """Estimate the flow of the next window, whose last frame is one further."""
         ...
 
 
 @dataclass(frozen=True)
 class Method:
-    """A way to estimate scene flow.
+    """Scene flow method.
 
-    A method either gives `flow`, a pure function: the same window and parameters give the same
-    flow, from any thread; or it makes a `tracker`, which is run over fixed segments of a
-    recording, each begun `warm_up` steps early, so that a frame's flow does not depend on who
-    asked for which frame first.
+    A method has either a `flow`, a pure function: the same window and parameters give the same
+    flow, from any thread; or a `tracker`, which is run over fixed segments of a recording, each
+    begun `warm_up` steps early, so that a frame's flow does not depend on the order in which
+    frames are requested.
 
     Attributes:
-        name: unique; `Parameters.method` and `--method` say it.
+        name: unique; the value of `Parameters.method` and `--method`.
         flow: estimates a window's flow.
-        tracker: makes a tracker with fresh memory.
-        title: how tables and figures call it, its name where empty.
-        parameters: its own parameters' class, declared with `parameter`, None where it has none.
-            `Parameters.of` gives an object of it.
+        tracker: makes a tracker with an empty memory.
+        title: name in tables and figures; default `name`.
+        parameters: class of its own parameters, declared with `parameter`, None where it has none.
+            `Parameters.of` returns an instance of it.
         uses: fields of `Parameters` that change its results.
-        warm_up: steps after which a tracker's flow counts.
-        needs_rays: whether it works only on frames of sensors, and not on plain points.
+        warm_up: steps after which a tracker's flow is used.
+        needs_rays: whether it needs the rays of sensors, which plain points do not have.
     """
 
     name: str
@@ -57,13 +57,13 @@ class Method:
 
     @property
     def label(self) -> str:
-        """How tables and figures call it."""
+        """Name in tables and figures."""
         return self.title or self.name
 
     def infos(self) -> dict[str, ParameterInfo]:
         """{name: description} of all parameters that change its results.
 
-        Its own are called by method and name, such as `rays.sigma`.
+        Its own are named by method and field, such as `rays.sigma`.
         """
         shared = {name: PARAMETER_INFO[name] for name in PARAMETER_INFO if name in self.uses}
         own = infos_of(self.parameters) if self.parameters else {}
@@ -74,10 +74,11 @@ _METHODS: dict[str, Method] = {}
 
 
 def register(method: Method) -> None:
-    """Make a method known by its name, to everything that takes one.
+    """Register a method under its name.
 
     Raises:
-        MethodError: the name is taken or no plain word, or it is neither a function nor a tracker.
+        MethodError: the name is taken or not valid, a field in `uses` does not exist, or the
+            method does not have exactly one of flow and tracker.
     """
     name = method.name
     if name in _METHODS and _METHODS[name] != method:

@@ -1,4 +1,4 @@
-"""The methods that come with the project; a further one is added to the tuple."""
+"""Built-in methods; a new one is added to the tuple."""
 
 from estimator.baseline import BASELINE
 from estimator.method import register

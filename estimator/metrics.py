@@ -1,19 +1,19 @@
 """Errors of a flow against the truth, pooled over the points and pairs of a recording.
 
-Two families stand beside each other. The paper's errors compare every point that has a flow with
-the velocity of the moving object. The field's metrics (EPE3D, AccS, AccR, Outliers, dynamic IoU)
-compare every source point with its own truth, over a pair: `f` is the way a point truly goes within
-the interval, in metres, `f_hat` the way it goes by its flow, zero for a point without one, and
+The paper's errors compare every point that has a flow with the velocity of the moving object. The
+field's metrics (EPE3D, AccS, AccR, Outliers, dynamic IoU) compare every source point with its own
+truth over a pair: `f` is the point's true displacement over the interval in metres, `f_hat` the
+estimated one, zero for a point without flow, and
 
     e = |f_hat - f|        r = e / (|f| + RELATIVE_EPSILON)
 
-The field's thresholds were made for cars and furniture that go metres from one cloud to the next,
-and do not transfer to this scale: at the paper's 0.15 to 0.30 m/s a point goes 0.08 to 0.16 m over
-n = 8 frames of 15 Hz. AccS accepts 0.05 m of it, a third to two thirds, AccR 0.10 m, which with
-speeds of 0.15 m/s is met without any flow, and every point that rests adds a hit to both. Outliers
-looks at r > 0.10 alone there, and counts every point at rest that has a flow. Argoverse 2 would
-call all of the paper's motion static (below 0.5 m/s). They are here to compare with other methods
-on the same recordings, and say little without coverage and precision.
+The field's thresholds are made for cars and furniture that move metres from one cloud to the next,
+and do not suit this scale: at the paper's 0.15 to 0.30 m/s a point moves 0.08 to 0.16 m over n = 8
+frames at 15 Hz. AccS accepts an error of 0.05 m, a third to two thirds of that. AccR accepts
+0.10 m, which at 0.15 m/s is satisfied without any flow. Every point at rest is a hit in both.
+Outliers reduces to r > 0.10 and counts every point at rest that has a flow. Argoverse 2 calls
+motion below 0.5 m/s static, and that is all of the paper's. Use these metrics to compare methods on
+the same recordings, together with coverage and precision.
 """
 
 import math
@@ -26,18 +26,18 @@ from numpy.typing import NDArray
 from estimator.flow import SceneFlow
 
 MOVING_SPEED = 0.01
-"""m/s above which something truly moves."""
+"""Speed in m/s above which the truth counts as motion."""
 
 STRICT, RELAXED, OUTLYING = 0.05, 0.10, 0.30
-"""e in metres: AccS and AccR are below theirs, or r is; an outlier is above OUTLYING, or r above
-RELAXED."""
+"""AccS: e below STRICT metres or r below STRICT; AccR likewise with RELAXED; an outlier: e above
+OUTLYING metres or r above RELAXED."""
 
 RELATIVE_EPSILON = 1e-4
 """Metres in the denominator of r, as in HPLFlowNet (Argoverse 2 has 1e-10, ICP-Flow 1e-20)."""
 
 
 MetricKind = Literal["count", "share", "error", "signed"]
-"""A whole number; a part from 0 to 1; a size from 0 on; a number that may be below 0, too."""
+"""A whole number; a fraction from 0 to 1; a number not below 0; a number of either sign."""
 
 
 @dataclass(frozen=True)
@@ -46,13 +46,13 @@ class MetricInfo:
 
     Attributes:
         title: its name.
-        short: its name where there is little room.
+        short: abbreviated name.
         unit: "" for a plain number.
         form: format of its values.
-        kind: which values it can have.
-        definition: what it is, in words.
-        source: where it is from.
-        plotted: whether the page shows it for every pair.
+        kind: range of its values.
+        definition: in words.
+        source: publication that defines it.
+        plotted: whether the page plots it for every pair.
     """
 
     title: str
@@ -70,7 +70,7 @@ class MetricInfo:
         return f"{self.title} {self.unit}".strip()
 
     def text(self, value: float | None) -> str:
-        """A value as people read it, – where it is not defined."""
+        """Format a value, – where it is undefined."""
         return "–" if value is None or math.isnan(value) else format(value, self.form)
 
 
@@ -91,11 +91,11 @@ def _metric(
 
 @dataclass(frozen=True)
 class Metrics:
-    """Errors pooled over all points and pairs; NaN where nothing defines them.
+    """Errors pooled over all points and pairs; NaN where undefined.
 
-    Pooled means over all points of all pairs that count together, and not the mean of the pairs'
-    means; only `false_flow` takes the other pairs, too. A point whose own truth is not known enters
-    the paper's errors alone. `METRIC_INFO` defines each.
+    A pair counts where the object moves at both its frames. Values are means over all points of
+    all pairs that count, not means of the pairs' means; only `false_flow` includes the other pairs.
+    A point whose own truth is unknown enters only the paper's errors. `METRIC_INFO` defines each.
     """
 
     pairs: int = _metric(
@@ -157,7 +157,7 @@ class Metrics:
     )
     dynamic_iou: float = _metric(
         "dynamic IoU",
-        "points that truly move and got a flow / points that either is true of, "
+        "points that truly move and got a flow / points that truly move or got a flow, "
         "TP / (TP + FP + FN). Truly moving is faster than MOVING_SPEED, as for coverage and "
         "precision, so that sets of parameters can be compared; found to move is the method's own "
         "decision, in the paper's the displacement gate delta",
@@ -177,7 +177,7 @@ _MEANS = tuple(name for name, info in METRIC_INFO.items() if info.kind != "count
 
 
 class PooledErrors:
-    """Collects the errors of pair after pair."""
+    """Accumulator of errors, pair by pair."""
 
     def __init__(self) -> None:
         self._pairs = 0
@@ -195,7 +195,7 @@ class PooledErrors:
         Args:
             flow: of N source points.
             interval: seconds between the two stamps.
-            object_velocity: (N, 3) m/s of the moving object, whatever each point belongs to.
+            object_velocity: (N, 3) m/s of the moving object, as if each point belonged to it.
             point_velocity: (N, 3) m/s of each point itself, NaN where unknown; None without.
         """
         self._pairs += 1
@@ -213,15 +213,15 @@ class PooledErrors:
         self._add("false_flow", found[~truly])
         by_flow = np.where(moving[:, None], flow.velocity, 0.0)[known]
         e = np.linalg.norm(by_flow - point_velocity[known], axis=1) * interval
-        way = np.linalg.norm(point_velocity[known], axis=1) * interval
-        r = e / (way + RELATIVE_EPSILON)
+        f = np.linalg.norm(point_velocity[known], axis=1) * interval
+        r = e / (f + RELATIVE_EPSILON)
         self._add("epe3d", e)
         self._add("acc_s", (e < STRICT) | (r < STRICT))
         self._add("acc_r", (e < RELAXED) | (r < RELAXED))
         self._add("outliers", (e > OUTLYING) | (r > RELAXED))
 
     def add_resting(self, flow: SceneFlow, point_velocity: NDArray[np.float64]) -> None:
-        """Add one pair that does not count, of which only the false flow is of interest.
+        """Add one pair that does not count; it changes only the false flow.
 
         Args:
             flow: of N source points.
@@ -232,12 +232,12 @@ class PooledErrors:
 
     @property
     def sums(self) -> NDArray[np.float64]:
-        """All that was added, to `include` it elsewhere: pairs, then sum and count of each mean."""
+        """Array for `include`: number of pairs, then sum and count of each mean."""
         means = self._means.values()
         return np.array([self._pairs, *(v for m in means for v in (m.sum, m.count))])
 
     def include(self, sums: NDArray[np.float64]) -> None:
-        """Add the pairs of another collection, by its `sums`."""
+        """Add the pairs of another accumulator, given its `sums`."""
         self._pairs += int(sums[0])
         for mean, (total, count) in zip(self._means.values(), sums[1:].reshape(-1, 2), strict=True):
             mean.sum += float(total)
@@ -264,7 +264,7 @@ def _moves(velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def angles_deg(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angles (N,) in degrees between vectors (N, 3), NaN where one has no length."""
+    """Angles (N,) in degrees between vectors (N, 3), NaN where one is zero."""
     # atan2 keeps its accuracy at small angles, where the paper's acos loses half the digits.
     across = np.linalg.norm(np.cross(a, b), axis=1)
     along = np.einsum("ij,ij->i", a, b)
@@ -273,7 +273,7 @@ def angles_deg(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.flo
 
 
 class _Mean:
-    """A mean over values that come in pieces; values that are NaN are left out."""
+    """Running mean; NaN and infinite values are left out."""
 
     def __init__(self) -> None:
         self.sum = 0.0

@@ -1,12 +1,12 @@
 """Algorithm 1 of the paper, line by line.
 
-What the text leaves open is decided here, and where users may differ it is a parameter:
+Choices where the paper leaves something open; those that users may want to change are parameters:
 
 - ICP runs from the source P_{k-n} to the target P_k, with `max_correspondence_distance`.
 - Inliers are the corresponding points of both clouds, and leave both.
 - After a removal the loop goes on at the test of N_min. It ends without a classification when
   nothing could be removed or after 20 rounds; what is left then is Unassigned.
-- V belongs to the points that remain; inliers removed on the way lay still and are Stationary.
+- V belongs to the remaining points; removed inliers did not move and are Stationary.
 """
 
 import numpy as np

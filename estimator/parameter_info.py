@@ -1,4 +1,4 @@
-"""Declaration and check of parameters: meaning, unit, range and slider beside each field."""
+"""Declaration and validation of parameters: meaning, unit, range and slider beside each field."""
 
 import math
 from dataclasses import MISSING, dataclass, field, fields, replace
@@ -12,7 +12,7 @@ _KINDS = {int: "a whole number", float: "a number", bool: "true or false", str: 
 
 
 class ParameterError(ValueError):
-    """A parameter has a value outside its range, or of the wrong type."""
+    """Parameter value outside its range or of the wrong type."""
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,11 @@ class ParameterInfo:
         unit: its unit, "" for a plain number.
         low: smallest value accepted.
         high: largest value accepted.
-        slider: (smallest, largest, step) offered by a slider, None where there is no slider.
-        choices: the texts that are accepted, empty where it is no choice.
+        slider: (smallest, largest, step), None for no slider.
+        choices: accepted texts, empty where any text is.
         kind: type of its values: int, float, bool or str; taken from the field's annotation.
         optional: whether it may be unset (None); taken from the field's annotation.
-        default: value where none is given; taken from the field.
+        default: default value; taken from the field.
     """
 
     text: str
@@ -55,17 +55,17 @@ def parameter(
     slider: tuple[float, float, float] | None = None,
     choices: tuple[str, ...] = (),
 ) -> Any:  # noqa: ANN401
-    """Declare a field of a parameters' dataclass; see `ParameterInfo` for the arguments."""
+    """Declare a field of a parameter dataclass; arguments as in `ParameterInfo`."""
     declared = ParameterInfo(text, symbol, unit, low, high, slider, choices)
     return field(default=default, metadata={"parameter": declared})
 
 
 @cache
 def infos_of(declaring: type) -> dict[str, ParameterInfo]:
-    """{name: description} of the parameters that a dataclass declares, in their order.
+    """{name: description} of the parameters that a dataclass declares, in order.
 
     Raises:
-        TypeError: a field is of a type that no slider, flag or file could hold, or has no default.
+        TypeError: a field is not an int, float, bool or str, or has no default.
     """
     hints = get_type_hints(declaring)
     found: dict[str, ParameterInfo] = {}
@@ -88,7 +88,7 @@ def infos_of(declaring: type) -> dict[str, ParameterInfo]:
 class CheckedParameters:
     """Base of frozen dataclasses whose fields are declared with `parameter`.
 
-    Values are checked when an object is made; NumPy's numbers become Python's.
+    Values are checked on construction; NumPy numbers become Python's.
 
     Raises:
         ParameterError: a value is of the wrong type or outside its range; the sentence names it.
@@ -97,13 +97,13 @@ class CheckedParameters:
     def __post_init__(self) -> None:
         for name, info in infos_of(type(self)).items():
             value = getattr(self, name)
-            if isinstance(value, np.generic):  # from an array of values to try; JSON knows none
+            if isinstance(value, np.generic):  # JSON cannot hold NumPy numbers
                 value = value.item()
             object.__setattr__(self, name, checked(name, value, info))
 
 
 def checked(name: str, value: object, info: ParameterInfo) -> Any:  # noqa: ANN401
-    """A parameter's value, brought to its type.
+    """Check a parameter's value and convert it to its type.
 
     Raises:
         ParameterError: it is of the wrong type or outside its range.

@@ -10,7 +10,7 @@ from estimator.parameters import PARAMETER_INFO, Parameters
 
 
 def values_of(parameters: Parameters) -> dict[str, Any]:
-    """{name: value} of all parameters, those of methods called such as `rays.sigma`."""
+    """{name: value} of all parameters; a method's own are named such as `rays.sigma`."""
     found = {name: getattr(parameters, name) for name in PARAMETER_INFO}
     for method, own_class in _own_classes().items():
         own = parameters.of(own_class)
@@ -42,9 +42,9 @@ def changed(parameters: Parameters, values: Mapping[str, Any]) -> Parameters:
 
 
 def to_nested(parameters: Parameters) -> dict[str, Any]:
-    """Parameters as JSON holds them: a method's own stand in a table of its name.
+    """Parameters as nested JSON: a method's own are in a table of its name.
 
-    Of other methods than the one that is set only those that differ from their defaults are kept.
+    Tables of methods other than the selected one are left out where they hold only defaults.
     """
     found: dict[str, Any] = {name: getattr(parameters, name) for name in PARAMETER_INFO}
     for method, own_class in _own_classes().items():
@@ -55,7 +55,7 @@ def to_nested(parameters: Parameters) -> dict[str, Any]:
 
 
 def from_nested(content: Mapping[str, Any]) -> Parameters:
-    """Parameters from what `to_nested` gives; those that are not named keep their defaults.
+    """Parameters from the result of `to_nested`; missing ones have their defaults.
 
     Raises:
         ParameterError: a parameter is not known, or its value cannot be taken.

@@ -1,4 +1,4 @@
-"""Parameters of an estimate: the one definition for sliders, flags, files and documents."""
+"""Parameters of an estimate: the single definition for sliders, flags, files and documents."""
 
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -17,7 +17,7 @@ _METHODS: dict[str, None] = {}
 
 
 def add_method_name(name: str) -> None:
-    """Accept a name as `Parameters.method` from now on; `estimator.method.register` calls it."""
+    """Allow a name as `Parameters.method`; called by `estimator.method.register`."""
     _METHODS[name] = None
 
 
@@ -31,11 +31,11 @@ class Parameters(CheckedParameters):
     """Parameters of an estimate; defaults are the paper's (section III-B) where it gives one.
 
     The paper leaves `min_cluster_size` and `max_correspondence_distance` open; their defaults
-    reproduce its tables best on simulated recordings. Numbers of NumPy become Python's.
+    reproduce its tables best on simulated recordings. NumPy numbers become Python's.
 
     Attributes:
-        own: parameters that methods declare themselves, an object for each class of them; those
-            that equal their defaults are left out, so that equal parameters are equal.
+        own: methods' own parameters, one instance per class; instances that equal their defaults
+            are dropped, so that parameters with equal values compare equal.
 
     Raises:
         ParameterError: a value is of the wrong type or outside its range; the sentence names it.
@@ -117,7 +117,7 @@ class Parameters(CheckedParameters):
         object.__setattr__(self, "own", tuple(by_class[kind] for kind in ordered))
 
     def of(self, kind: type[T]) -> T:
-        """The parameters of a method's own class, its defaults where none were set."""
+        """Instance of a method's own parameter class, with its defaults where none was set."""
         return next((own for own in self.own if type(own) is kind), None) or kind()
 
 

@@ -1,4 +1,4 @@
-"""What Algorithm 1 and the baseline share: the size test and one ICP round over a cluster."""
+"""Steps shared by Algorithm 1 and the baseline: the size test and one ICP round of a cluster."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +14,14 @@ USED = (
     *(*SHARED, "n_min", "min_cluster_size", "min_samples", "allow_single_cluster"),
     "max_correspondence_distance",
 )
-"""Parameters that change clusters and rounds."""
+"""Parameters that clusters and rounds depend on."""
 
 
 def too_few_points(source: Indices, target: Indices, parameters: Parameters) -> str | None:
-    """Say why a cluster has too few points to go on with, None where it has enough.
+    """Reason why a cluster has too few points, None where it has enough.
 
     N_min skips a cluster when both clouds are below it (AND, as in the pseudocode; the prose
-    reads like OR). A rigid motion needs three points on either side whatever N_min is.
+    reads like OR). For any N_min, a rigid motion needs three points in each cloud.
     """
     sizes = f"{len(source)} source and {len(target)} target points"
     if len(source) < parameters.n_min and len(target) < parameters.n_min:
@@ -34,9 +34,9 @@ def too_few_points(source: Indices, target: Indices, parameters: Parameters) -> 
 def icp_round(
     source: Indices, target: Indices, window: Window, parameters: Parameters
 ) -> tuple[IcpRound, NDArray[np.float64]]:
-    """Lines 8-12 of Algorithm 1: ICP, its transformation, and the displacements D^C it causes.
+    """Lines 8-12 of Algorithm 1: ICP, its transformation, and the displacements D^C.
 
-    ICP runs once for the same points, whatever thresholds its result is held against later.
+    The ICP result is cached, so that new thresholds do not run it again.
 
     Returns:
         The round, and D^C (len(source), 3) in metres.

@@ -1,4 +1,4 @@
-"""What the stages of an estimate found out about a pair, for the next estimate of the same pair."""
+"""Cache of intermediate results, shared between estimates of the same pair."""
 
 import threading
 from collections import OrderedDict
@@ -7,14 +7,14 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 
-_REMEMBERED = 512  # a few of the largest estimates, with twenty rounds of every cluster
+_CACHED = 512  # a few of the largest estimates, with twenty rounds of every cluster
 
 
 class Stages:
-    """A bounded memory of one pair, safe under many threads; what was asked for last is kept.
+    """Thread-safe LRU cache of one pair's intermediate results.
 
-    A stage is a pure function of the pair's clouds and of its key, so that an estimate is the
-    same whether something was remembered or not.
+    A result is a pure function of the pair's clouds and the key, so that an estimate is the same
+    with or without the cache.
     """
 
     def __init__(self) -> None:
@@ -25,11 +25,11 @@ class Stages:
         return len(self._results)
 
     def get(self, key: Hashable, make: Callable[[], T]) -> T:
-        """The result of a stage, from memory or else made.
+        """Cached result of a stage, computed where it is missing.
 
         Args:
             key: the stage's name, and everything but the clouds that its result depends on.
-            make: makes what nobody may change afterwards; two threads may both make it.
+            make: computes the result, which must not be modified; two threads may both call it.
         """
         with self._lock:
             if key in self._results:
@@ -38,6 +38,6 @@ class Stages:
         result = make()
         with self._lock:
             self._results[key] = result
-            while len(self._results) > _REMEMBERED:
+            while len(self._results) > _CACHED:
                 self._results.popitem(last=False)
         return result

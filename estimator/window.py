@@ -1,4 +1,4 @@
-"""The window of frames that a method looks at."""
+"""Window of frames, the input of a method."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -16,13 +16,13 @@ from estimator.stages import Stages
 
 @dataclass(frozen=True)
 class Window:
-    """Frames k-n to k of a recording, or a pair of clouds; nothing in it is ever changed.
+    """Frames k-n to k of a recording, or a pair of clouds; immutable.
 
     Attributes:
         frames: in order; the first is the source, the last the target. Frames between are read
-            when they are asked for. A pair of plain arrays gives two.
+            on first access. A pair of plain arrays gives two.
         stamps: (F,) seconds of the frames, increasing.
-        stages: results of the estimator's stages for this window, shared between estimates.
+        stages: cache of intermediate results for this window, shared between estimates.
     """
 
     frames: Sequence[Cloud]
@@ -31,12 +31,12 @@ class Window:
 
     @property
     def source(self) -> Cloud:
-        """P_{k-n}: the cloud whose points get a flow."""
+        """P_{k-n}, the cloud whose points get a flow."""
         return self.frames[0]
 
     @property
     def target(self) -> Cloud:
-        """P_k, in the same frame of reference."""
+        """P_k, in the same coordinate frame."""
         return self.frames[-1]
 
     @property
@@ -46,12 +46,12 @@ class Window:
 
 
 class LazyFrames(Sequence[Cloud]):
-    """Frames that are loaded when they are first asked for.
+    """Frames that are loaded on first access.
 
     Args:
         count: number of frames.
-        load: gives the frame at an index; it may be called twice where two threads ask at once.
-        loaded: {index: frame} of those that are there already.
+        load: returns the frame at an index; two threads may both call it.
+        loaded: {index: frame} of frames that are loaded already.
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class LazyFrames(Sequence[Cloud]):
     @overload
     def __getitem__(self, index: slice) -> Sequence[Cloud]: ...
     def __getitem__(self, index: int | slice) -> Cloud | Sequence[Cloud]:
-        """A frame, or several; errors of loading come through."""
+        """Return a frame or several; errors of `load` are passed on."""
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(self._count))]
         at = index + self._count if index < 0 else index
@@ -90,7 +90,7 @@ def _checked(index: int, frame: Cloud) -> Cloud:
 def window_of_pair(
     source: ArrayLike | HasPoints, target: ArrayLike | HasPoints, interval: float
 ) -> Window:
-    """Check a pair of clouds and bring it into a window's form.
+    """Check a pair of clouds and make a window of it.
 
     Args:
         source: (N, 3) metres, or a cloud; N may be 0, rows may hold NaN.
@@ -98,7 +98,8 @@ def window_of_pair(
         interval: seconds between the two stamps.
 
     Raises:
-        CloudError: a wrong shape, type or size; an interval that is no finite number above zero.
+        CloudError: a cloud has a wrong shape, type or size, or the interval is not a finite number
+            above zero.
     """
     if not isinstance(interval, Real) or not math.isfinite(interval) or interval <= 0:
         raise CloudError(

@@ -105,8 +105,8 @@ class Recording:
         return self._parts.truth is not None
 
     @property
-    def unplaced(self) -> int:
-        """How many frames lie outside the known poses of every sensor; their clouds are empty."""
+    def unplaced(self) -> NDArray[np.bool_]:
+        """(K,) whether a frame lies outside the known poses of every sensor: its cloud is empty."""
         return self._parts.sensor_poses.unplaced
 
     def __len__(self) -> int:

@@ -43,6 +43,40 @@ class RobotPoses:
         values = {joint: float(position[k]) for joint, position in self._positions.items()}
         return {joint: value for joint, value in values.items() if np.isfinite(value)}
 
+    def known(self, link: str, frames: int) -> NDArray[np.bool_]:
+        """(K,) whether `link_poses` has the link, without computing a pose by the joints."""
+        if link not in self._frames:
+            return np.zeros(frames, dtype=bool)
+        by_joints = self._known_by_joints(frames)
+        base = self._frames[self.robot.base]
+        known = np.full(frames, base == self._fixed_frame)
+        if base in self._tree.frames:
+            known |= self._tree.known(self._fixed_frame, base, frames)
+        for other, frame in self._frames.items():
+            if frame == self._fixed_frame:
+                known |= by_joints[other]
+        known &= by_joints[link]
+        if self._frames[link] in self._tree.frames:
+            known |= self._tree.known(self._fixed_frame, self._frames[link], frames)
+        return known
+
+    def _known_by_joints(self, frames: int) -> dict[str, NDArray[np.bool_]]:
+        """{link: (K,) whether the known joints place it relative to the base}."""
+        known = {link: np.zeros(frames, dtype=bool) for link in self.robot.links}
+        names = list(self._positions)
+        if not names:
+            return known
+        finite = np.isfinite(np.stack([self._positions[name] for name in names]))
+        # The same few joints are known at most frames.
+        patterns, pattern = np.unique(finite, axis=1, return_inverse=True)
+        for number, column in enumerate(patterns.T):
+            joints = [name for name, is_known in zip(names, column, strict=True) if is_known]
+            if not joints:
+                continue
+            for link in self.robot.links_placed_by(joints):
+                known[link] |= pattern.ravel() == number
+        return known
+
     def _link_poses(self, k: int) -> dict[str, Transform]:
         """{link: T_fixed_link (4, 4)} of all links whose pose is known at frame `k`."""
         poses: dict[str, Transform] = {}

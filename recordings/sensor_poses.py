@@ -1,10 +1,12 @@
 """Where the sensors are at each frame."""
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from recordings.cloud import read_only
 from recordings.robot_poses import RobotPoses
 from recordings.transforms import TransformTree
 from robot_assets import Sensor
@@ -42,16 +44,19 @@ class SensorPoses:
         ]
         self._robot = robot
         self._count = count
-        self._unplaced: int | None = None
 
-    @property
-    def unplaced(self) -> int:
-        """How many frames lie outside the known poses of every sensor."""
-        if self._unplaced is None:
-            self._unplaced = sum(
-                not np.isfinite(self.at(k)).all(axis=(1, 2)).any() for k in range(self._count)
-            )
-        return self._unplaced
+    @cached_property
+    def unplaced(self) -> NDArray[np.bool_]:
+        """(K,) whether a frame lies outside the known poses of every sensor; read-only."""
+        unplaced = np.ones(self._count, dtype=bool)
+        for frame, sensor in zip(self._frames, self._by_rig, strict=True):
+            if not unplaced.any():
+                break
+            if sensor is None:
+                unplaced &= ~self._tree.known(self._fixed_frame, frame, self._count)
+            elif self._robot:
+                unplaced &= ~self._robot.known(sensor.link, self._count)
+        return read_only(unplaced)
 
     def at(self, k: int) -> NDArray[np.float64]:
         """T_fixed_sensor (S, 4, 4) at frame `k`, NaN where unknown."""

@@ -76,15 +76,22 @@ class TransformTree:
 
     def transform(self, a: str, b: str, k: int) -> Transform:
         """T_a_b (4, 4) at frame `k`, NaN where the frames are not connected or it is unknown."""
-        if not self.connected(a, b):
-            return np.full((4, 4), np.nan)
-        up, down = self._branches(a, b)
-        T_common_a, T_common_b = self._chain(up, k), self._chain(down, k)
-        return inverse(T_common_a) @ T_common_b
+        return self._between(a, b, k)
 
     def over(self, a: str, b: str, frames: int) -> Transform:
         """T_a_b (K, 4, 4) at the first `frames` frames, NaN where unknown."""
-        return np.stack([self.transform(a, b, k) for k in range(frames)])
+        return np.broadcast_to(self._between(a, b, slice(frames)), (frames, 4, 4)).copy()
+
+    def known(self, a: str, b: str, frames: int) -> NDArray[np.bool_]:
+        """(K,) whether T_a_b is known at the first `frames` frames."""
+        return np.asarray(np.isfinite(self.over(a, b, frames)).all(axis=(1, 2)))
+
+    def _between(self, a: str, b: str, frames: int | slice) -> Transform:
+        """T_a_b (4, 4) at a frame, or (K, 4, 4) at several, (4, 4) where it never changes."""
+        if not self.connected(a, b):
+            return np.full((4, 4), np.nan)
+        up, down = self._branches(a, b)
+        return inverse(self._chain(up, frames)) @ self._chain(down, frames)
 
     def _branches(self, a: str, b: str) -> tuple[list[str], list[str]]:
         """The frames from `a`, and from `b`, up to below the first that both descend from."""
@@ -92,19 +99,21 @@ class TransformTree:
         common = next(frame for frame in path_a if frame in path_b)
         return path_a[: path_a.index(common)], path_b[: path_b.index(common)]
 
-    def _chain(self, frames: Iterable[str], k: int) -> Transform:
+    def _chain(self, branch: Iterable[str], frames: int | slice) -> Transform:
         T: Transform = np.eye(4)
-        for frame in frames:
+        for frame in branch:
             poses = self._poses[frame]
-            T = poses[k if len(poses) > 1 else 0] @ T
+            T = poses[frames if len(poses) > 1 else 0] @ T
         return T
 
 
 def inverse(T: Transform) -> Transform:
-    """The inverse of a rigid transformation (4, 4)."""
-    result = np.eye(4)
-    result[:3, :3] = T[:3, :3].T
-    result[:3, 3] = -T[:3, :3].T @ T[:3, 3]
+    """The inverse of rigid transformations (..., 4, 4)."""
+    back = np.swapaxes(T[..., :3, :3], -1, -2)
+    result = np.zeros_like(T)
+    result[..., :3, :3] = back
+    result[..., :3, 3:] = -back @ T[..., :3, 3:]
+    result[..., 3, 3] = 1.0
     return result
 
 

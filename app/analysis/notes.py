@@ -8,9 +8,9 @@ def notes(recording: Recording) -> list[str]:
     said = list(recording.warnings)
     if recording.duplicates:
         said.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
-    if recording.unplaced:
+    if unplaced := int(recording.unplaced.sum()):
         said.append(
-            f"{recording.unplaced} of {len(recording)} frames are empty: they lie outside the "
+            f"{unplaced} of {len(recording)} frames are empty: they lie outside the "
             f"poses that are known."
         )
     return said

@@ -41,7 +41,7 @@ class Outline:
     def __init__(self, recording: Recording) -> None:
         self.count = len(recording)
         self._gaps = gaps(recording.stamps)
-        self._unplaced = _unplaced(recording)
+        self._unplaced = recording.unplaced.tolist()
         self._moving = (
             [moves(recording, k) for k in range(self.count)] if recording.has_truth else None
         )
@@ -100,14 +100,3 @@ def neighbour(moving: Sequence[tuple[int, int]], frame: int, direction: int) -> 
     if direction > 0:
         return min((start for start in starts if start > frame), default=None)
     return max((start for start in starts if start < frame), default=None)
-
-
-def _unplaced(recording: Recording) -> list[bool]:
-    """Whether each frame lies outside the known poses: those do at the start and at the end."""
-    flags = [False] * len(recording)
-    for frames in (range(len(flags)), reversed(range(len(flags)))):
-        for k in frames:
-            if np.isfinite(recording.T_fixed_sensor(k)).all(axis=(1, 2)).any():
-                break
-            flags[k] = True
-    return flags

@@ -58,7 +58,7 @@ def _described(recording: Recording) -> dict[str, Any]:
         "robot": recording.robot.name if recording.robot else None,
         "truth": recording.has_truth,
         "duplicates": recording.duplicates,
-        "frames_outside_known_poses": recording.unplaced,
+        "frames_outside_known_poses": int(recording.unplaced.sum()),
         "provenance": asdict(recording.provenance) if recording.provenance else None,
         "warnings": list(recording.warnings),
     }

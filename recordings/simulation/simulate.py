@@ -69,11 +69,12 @@ def simulate(
     scene = Scene(scenario, speed, robot, offset, RAMP if "ramps" in on else 0.0)
     sensing = Sensing(len(rig.sensors), rig.model, noise, on, rng, streams)
     rays = ZoneRays(rig)
+    T_link_sensor = np.stack([sensor.T_link_sensor for sensor in rig.sensors])
     static = PieceCaster({index: piece.mesh for index, piece in enumerate(scene.static)})
     surfaces = {index: piece.surface for index, piece in enumerate(scene.static)}
     for time, said, lost in _times(scene.duration, on, streams):
         links = scene.own.link_poses(time)
-        T_base_sensor = np.stack([links[s.link] @ s.T_link_sensor for s in rig.sensors])
+        T_base_sensor = np.stack([links[s.link] for s in rig.sensors]) @ T_link_sensor
         bodies = dict(enumerate(scene.bodies(time), len(scene.static)))
         moving = PieceCaster({index: body.placed() for index, body in bodies.items()})
         bundle = rays.in_fixed(T_base_sensor)

@@ -39,6 +39,7 @@ class FakeRecording:
         self.fixed_frame = robot.base if robot else "world"
         self.warnings = ()
         self.has_truth = True
+        self.unplaced = np.zeros(frames, dtype=bool)
         self.closed = False
         rays = (rig.model if rig else SensorModel()).directions
         sensors = [(s.name, s.ring) for s in rig.sensors] if rig else [("front", "")]

@@ -65,3 +65,17 @@ def test_a_link_may_be_the_fixed_frame(robot: Robot):
     poses = RobotPoses(robot, positions([TURN], [TURN]), NOTHING, "link2")
     np.testing.assert_allclose(poses.link_poses(0)["link0"], at(turn=-2 * TURN), atol=1e-12)
     np.testing.assert_allclose(poses.link_poses(0)["link2"], np.eye(4), atol=1e-12)
+
+
+@pytest.mark.parametrize("fixed", ["link0", "link1", "link2", "world"])
+@pytest.mark.parametrize("in_tree", [{}, {"link0": "world"}, {"link2": "world"}])
+def test_links_are_known_at_the_frames_at_which_they_have_a_pose(robot: Robot, fixed, in_tree):
+    nan = np.nan
+    joints = positions([TURN, TURN, nan, nan, TURN], [TURN, nan, TURN, nan, TURN])
+    sampled = np.stack([at(), at(), at(), at(), np.full((4, 4), nan)])
+    tree = TransformTree(in_tree, dict.fromkeys(in_tree, sampled))
+    poses = RobotPoses(robot, joints, tree, fixed)
+    for link in robot.links:
+        expected = [link in poses.link_poses(k) for k in range(5)]
+        assert poses.known(link, 5).tolist() == expected
+    assert not poses.known("elsewhere", 5).any()

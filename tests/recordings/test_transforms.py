@@ -73,3 +73,20 @@ def test_tf_is_read_at_the_frames_and_a_second_parent_is_said(tmp_path: Path):
     assert np.isnan(tree.transform("world", "eye", 2)).all()
     assert tree.root_of("eye") == "world"
     assert warnings == ["Frame drone has two parents, world and map; the second is left out."]
+
+
+def test_poses_over_all_frames_are_those_of_each_frame_to_the_bit():
+    numbers = np.random.default_rng(0).normal(size=(201, 4))
+    sampled = np.stack([at(*row) for row in numbers])
+    sampled[0] = np.nan
+    poses = {
+        "arm": sampled[:100],
+        "hand": sampled[100:200],
+        "head": sampled[200:],
+        "neck": sampled[1:2],
+    }
+    tree = TransformTree({"arm": "base", "hand": "arm", "head": "neck", "neck": "base"}, poses)
+    for a, b in [("base", "hand"), ("hand", "head"), ("head", "base"), ("base", "sea")]:
+        each = np.stack([tree.transform(a, b, k) for k in range(100)])
+        np.testing.assert_array_equal(tree.over(a, b, 100), each)
+        assert tree.known(a, b, 100).tolist() == np.isfinite(each).all(axis=(1, 2)).tolist()

@@ -27,8 +27,7 @@ def still_and_moving() -> Any:
     """A recording whose truth moves in frames 5 to 9 and 20 to 29; the first 3 are nowhere."""
     recording = fake_recording()
     recording.truth = lambda k: SPEED if 5 <= k < 10 or 20 <= k < 30 else np.zeros(3)
-    pose = recording.T_fixed_sensor
-    recording.T_fixed_sensor = lambda k: pose(k) * (np.nan if k < 3 else 1.0)
+    recording.unplaced[:3] = True
     return recording
 
 
