@@ -4,6 +4,8 @@ import os
 import re
 from pathlib import Path
 
+from platformdirs import user_config_path
+
 from app.analysis.parameter_files import load, to_text
 from app.errors import InputError
 from estimator import Parameters
@@ -13,10 +15,8 @@ _NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
 
 
 def preset_folder() -> Path:
-    """Where the user's presets are: $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
-    home = os.environ.get("XDG_CONFIG_HOME", "")
-    base = Path(home) if Path(home).is_absolute() else Path.home() / ".config"
-    return base / "tofscope" / "presets"
+    """The user's presets, on Linux in $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
+    return user_config_path("tofscope", appauthor=False) / "presets"
 
 
 class Presets:
