@@ -10,6 +10,7 @@ from typing import NoReturn
 from app.commands import evaluate, export, info, simulate, study, view
 from app.commands.flags.parameter_flags import register_method_files
 from app.errors import UserError
+from app.terminal.printable import printable
 
 _LOG = logging.getLogger(__name__)
 _OURS = ("app", "estimator", "recordings", "robot_assets")
@@ -19,7 +20,7 @@ _LOG_LEVELS = ("debug", "info", "warning", "error", "critical")
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Say what is wrong in one sentence, without the usage in front of it."""
-        print(f"{self.prog}: {message}; see '{self.prog} --help'.", file=sys.stderr)
+        print(f"{self.prog}: {printable(message)}; see '{self.prog} --help'.", file=sys.stderr)
         raise SystemExit(2)
 
 
@@ -47,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return options.run(options)
     except UserError as error:
-        print(f"tofscope {options.command}: {error}", file=sys.stderr)
+        print(f"tofscope {options.command}: {printable(str(error))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130

@@ -3,7 +3,8 @@
 from robot_assets.errors import RobotError
 from robot_assets.joint_match import JointMatch
 from robot_assets.raycast import RayCaster
-from robot_assets.rig import Rig, RigError, Sensor, load_rig, parse_rig, plain_name
+from robot_assets.rig import Rig, RigError, Sensor, load_rig, parse_rig
+from robot_assets.rig_names import plain_name
 from robot_assets.rig_text import rig_text
 from robot_assets.robot import Robot, Transform, load_robot
 from robot_assets.self_filter import SelfFilter

@@ -2,18 +2,19 @@
 
 import math
 import tomllib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
+from robot_assets.rig_file import RigFile, RingTable, SensorModelTable, SingleTable
+from robot_assets.rig_problems import problems
 from robot_assets.sensor_model import SensorModel, unit
-from robot_assets.table import Table, TableError
 
-_MOST_SENSORS = 1000
+_LARGEST = 1_000_000  # bytes; a thousand sensors need a third of it
 
 
 class RigError(Exception):
@@ -65,13 +66,19 @@ def load_rig(path: str | Path | None = None) -> Rig:
     """Load a rig from a TOML file; None is the paper's rig of 24 sensors on a Panda.
 
     Raises:
-        RigError: the file is not there or not TOML, or a key is missing, unknown or wrong.
+        RigError: the file is not there, too large or not TOML, or a key is missing, unknown or
+            wrong; the sentence names the first three of several.
     """
     where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
     try:
-        content = where.read_bytes()
+        with where.open("rb") as file:
+            content = file.read(_LARGEST + 1)
     except OSError as error:
         raise RigError(f"{where} cannot be read as a rig file: {error.strerror}.") from error
+    if len(content) > _LARGEST:
+        raise RigError(
+            f"{where} has more than {_LARGEST} bytes, too many for a rig file; check the name."
+        )
     return parse_rig(content, str(where))
 
 
@@ -86,96 +93,58 @@ def parse_rig(content: bytes, where: str) -> Rig:
     except (ValueError, RecursionError) as error:  # also a number of too many digits
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
-        return _rig(Table(table))
-    except TableError as error:
-        raise RigError(f"{where}: {error}") from error
+        return _rig(RigFile.model_validate(table))
+    except ValidationError as error:
+        raise RigError(f"{where}: {problems(error)}") from error
 
 
-def _rig(table: Table) -> Rig:
-    name = table.text("name")
-    model = _sensor_model(table.table("sensor_model"))
-    sensors: list[Sensor] = []
-    for ring in table.tables("rings"):
-        sensors += _ring(ring)
-        if len(sensors) > _MOST_SENSORS:
-            break
-    for single in table.tables("sensors"):
-        sensors.append(_single(single))
-    table.finish()
-    if not sensors:
-        raise TableError("there must be at least one of [[rings]] and [[sensors]], found none.")
-    if len(sensors) > _MOST_SENSORS:
-        raise TableError(f"there must be at most {_MOST_SENSORS} sensors, found more.")
-    _check_names([sensor.name for sensor in sensors])
-    return Rig(name, model, tuple(sensors))
+def _rig(content: RigFile) -> Rig:
+    sensors = [sensor for ring in content.rings for sensor in _ring(ring)]
+    sensors += [_single(single) for single in content.sensors]
+    return Rig(content.name, _sensor_model(content.sensor_model), tuple(sensors))
 
 
-def _check_names(names: Sequence[str]) -> None:
-    """Names are told apart in topics and frames, where only letters and digits are the same."""
-    seen: dict[str, str] = {}
-    for name in names:
-        plain = plain_name(name)
-        if not plain:
-            raise TableError(f"the name {name!r} of a sensor must have a letter or a digit.")
-        if seen.get(plain) == name:
-            raise TableError(f"two sensors have the name {name!r}; names must be unique.")
-        if plain in seen:
-            raise TableError(
-                f"the names {seen[plain]!r} and {name!r} must differ in letters or digits, by "
-                f"which sensors are told apart."
-            )
-        seen[plain] = name
-
-
-def plain_name(text: str) -> str:
-    """A name, topic or frame by which sensors are matched: small letters, digits, underscores."""
-    return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
-
-
-def _sensor_model(table: Table) -> SensorModel:
-    min_range = table.number("min_range_m", low=0.0, high=100.0)
-    across, down = table.number_or_two("field_of_view_deg", low=1.0, high=170.0)
-    model = SensorModel(
-        name=table.text("name"),
-        rows=table.integer("rows", low=2, high=64),
-        columns=table.integer("columns", low=2, high=64),
+def _sensor_model(table: SensorModelTable) -> SensorModel:
+    angles = table.field_of_view_deg
+    across, *down = angles if isinstance(angles, list) else [angles]
+    return SensorModel(
+        name=table.name,
+        rows=table.rows,
+        columns=table.columns,
         field_of_view=math.radians(across),
-        vertical_field_of_view=None if down is None else math.radians(down),
-        min_range=min_range,
-        max_range=table.number("max_range_m", low=max(min_range, 0.001), high=100.0),
-        distance=table.choice("distance", ("perpendicular", "radial")),  # type: ignore[arg-type]
-        reading_order=table.choice("reading_order", ("row_major", "column_major")),  # type: ignore[arg-type]
-        flip_vertical=table.boolean("flip_vertical"),
-        flip_horizontal=table.boolean("flip_horizontal"),
+        vertical_field_of_view=math.radians(down[0]) if down else None,
+        min_range=table.min_range_m,
+        max_range=table.max_range_m,
+        distance=table.distance,
+        reading_order=table.reading_order,
+        flip_vertical=table.flip_vertical,
+        flip_horizontal=table.flip_horizontal,
     )
-    table.finish()
-    return model
 
 
-def _ring(table: Table) -> list[Sensor]:
-    name, link = table.text("name"), table.text("link")
-    count = table.integer("count", low=1, high=1000)
-    radius = table.number("radius_m", low=0.0, high=10.0)
-    centre = table.vector("centre_m")
-    axis = unit(table.vector("axis", nonzero=True))
-    first = table.direction_across("first_direction", axis)
-    table.finish()
+def _ring(table: RingTable) -> list[Sensor]:
+    axis = unit(np.array(table.axis))
+    first = _across(table.first_direction, axis)
     side = np.cross(axis, first)
     sensors: list[Sensor] = []
-    for i, angle in enumerate(2 * np.pi * np.arange(count) / count):
+    angles = 2 * np.pi * np.arange(table.count) / table.count
+    for name, angle in zip(table.sensor_names, angles, strict=True):
         outward = np.cos(angle) * first + np.sin(angle) * side
-        pose = look(centre + radius * outward, outward, axis)
-        sensors.append(Sensor(f"{name}/{i}", name, link, pose))
+        pose = look(np.array(table.centre_m) + table.radius_m * outward, outward, axis)
+        sensors.append(Sensor(name, table.name, table.link, pose))
     return sensors
 
 
-def _single(table: Table) -> Sensor:
-    name, link, ring = table.text("name"), table.text("link"), table.text("ring", otherwise="")
-    position = table.vector("position_m")
-    forward = unit(table.vector("forward", nonzero=True))
-    up = table.direction_across("up", forward)
-    table.finish()
-    return Sensor(name, ring, link, look(position, forward, up))
+def _single(table: SingleTable) -> Sensor:
+    forward = unit(np.array(table.forward))
+    pose = look(np.array(table.position_m), forward, _across(table.up, forward))
+    return Sensor(table.name, table.ring or "", table.link, pose)
+
+
+def _across(direction: list[float], axis: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The part of a direction at a right angle to the unit vector `axis`, as a unit vector."""
+    vector = np.array(direction)
+    return unit(vector - (vector @ axis) * axis)
 
 
 def look(

@@ -2,69 +2,91 @@
 
 import json
 import math
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
+from pydantic import ValidationError
 
-from robot_assets.rig import Rig, Sensor
+from robot_assets.rig import Rig, RigError, Sensor
+from robot_assets.rig_file import RigFile
+from robot_assets.rig_problems import problems
 from robot_assets.sensor_model import SensorModel
 
 
 def rig_text(rig: Rig) -> str:
-    """A rig as TOML for `load_rig`, each sensor by itself; poses come back to within rounding."""
-    parts = [f"name = {_text(rig.name)}\n", _sensor_model(rig.model)]
-    return "\n".join([*parts, *(_sensor(sensor) for sensor in rig.sensors)])
+    """A rig as TOML for `load_rig`, each sensor by itself; poses come back to within rounding.
+
+    Raises:
+        RigError: it was made in code, and no file may hold it.
+    """
+    content = {
+        "name": rig.name,
+        "sensor_model": _sensor_model(rig.model),
+        "sensors": [_sensor(sensor) for sensor in rig.sensors],
+    }
+    try:
+        checked = RigFile.model_validate(content)
+    except ValidationError as error:
+        raise RigError(f"No file can hold the rig {rig.name!r}: {problems(error)}") from error
+    return _toml(checked.model_dump(exclude_defaults=True))
 
 
-def _sensor_model(model: SensorModel) -> str:
-    view = _degrees(model.field_of_view)
-    if model.vertical_field_of_view is not None:
-        view = f"[{view}, {_degrees(model.vertical_field_of_view)}]"
-    return (
-        "[sensor_model]\n"
-        f"name = {_text(model.name)}\n"
-        f"rows = {model.rows}\n"
-        f"columns = {model.columns}\n"
-        f"field_of_view_deg = {view}\n"
-        f"min_range_m = {float(model.min_range)!r}\n"
-        f"max_range_m = {float(model.max_range)!r}\n"
-        f"distance = {_text(model.distance)}\n"
-        f"reading_order = {_text(model.reading_order)}\n"
-        f"flip_vertical = {_truth(model.flip_vertical)}\n"
-        f"flip_horizontal = {_truth(model.flip_horizontal)}\n"
-    )
+def _sensor_model(model: SensorModel) -> dict[str, Any]:
+    across, down = model.field_of_view, model.vertical_field_of_view
+    return {
+        "name": model.name,
+        "rows": model.rows,
+        "columns": model.columns,
+        "field_of_view_deg": (
+            _degrees(across) if down is None else [_degrees(across), _degrees(down)]
+        ),
+        "min_range_m": model.min_range,
+        "max_range_m": model.max_range,
+        "distance": model.distance,
+        "reading_order": model.reading_order,
+        "flip_vertical": model.flip_vertical,
+        "flip_horizontal": model.flip_horizontal,
+    }
 
 
-def _sensor(sensor: Sensor) -> str:
+def _sensor(sensor: Sensor) -> dict[str, Any]:
     pose = sensor.T_link_sensor
-    ring = f"ring = {_text(sensor.ring)}\n" if sensor.ring else ""
-    return (
-        "[[sensors]]\n"
-        f"name = {_text(sensor.name)}\n"
-        f"{ring}"
-        f"link = {_text(sensor.link)}\n"
-        f"position_m = {_vector(pose[:3, 3])}\n"
-        f"forward = {_vector(pose[:3, 2])}\n"
-        f"up = {_vector(-pose[:3, 1])}\n"
-    )
+    return {
+        "name": sensor.name,
+        "ring": sensor.ring or None,
+        "link": sensor.link,
+        "position_m": pose[:3, 3].tolist(),
+        "forward": pose[:3, 2].tolist(),
+        "up": (-pose[:3, 1]).tolist(),
+    }
 
 
-def _text(value: str) -> str:
-    # JSON escapes what TOML must have escaped, but for one sign.
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-
-
-def _truth(value: bool) -> str:
-    return "true" if value else "false"
-
-
-def _degrees(angle: float) -> str:
+def _degrees(angle: float) -> float:
     """An angle in rad as degrees, as a person wrote it where that is the same angle."""
     exact = math.degrees(angle)
     short = round(exact, 9)
-    return repr(short if math.radians(short) == angle else exact)
+    return short if math.radians(short) == angle else exact
 
 
-def _vector(values: NDArray[np.float64]) -> str:
+def _toml(table: dict[str, Any]) -> str:
+    """Lines of a table: its plain values, then the tables inside it."""
+    text = ""
+    for key, value in table.items():
+        if isinstance(value, dict):
+            text += f"\n[{key}]\n{_toml(value)}"
+        elif isinstance(value, list) and isinstance(value[0], dict):
+            text += "".join(f"\n[[{key}]]\n{_toml(one)}" for one in value)
+        else:
+            text += f"{key} = {_value(value)}\n"
+    return text
+
+
+def _value(value: str | bool | float | list[float]) -> str:
+    if isinstance(value, str):
+        # JSON escapes what TOML must have escaped, but for one sign.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
     # Adding zero makes a zero of a negative zero.
-    return str([value + 0.0 for value in values.tolist()])
+    return repr(value + 0)

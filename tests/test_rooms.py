@@ -19,8 +19,9 @@ MAY_IMPORT: dict[str, set[str]] = {
     "estimator": set(),
     ERRORS: LOWER,
     "app.browser": set(),
+    "app.terminal": set(),
     "app.analysis": LOWER,
-    "app.study": {"app.analysis", *LOWER},
+    "app.study": {"app.analysis", "app.terminal", *LOWER},
     "app.scene": {"app.browser", "app.analysis", *LOWER},
     "app.session": {"app.scene", "app.analysis", *LOWER},
     "app.exports": {*SHOWN, *LOWER},
@@ -28,10 +29,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "app.server": {"app.panels", "app.session", *SHOWN, *LOWER},
     "app.commands": {
         *("app.server", "app.panels", "app.session", "app.exports", "app.study"),
+        "app.terminal",
         *SHOWN,
         *LOWER,
     },
-    "app.command_line": {"app.commands"},
+    "app.command_line": {"app.commands", "app.terminal"},
     "app.__main__": {"app.command_line"},
 }
 """{room: the rooms that it may import beside itself}; the design, as a table."""

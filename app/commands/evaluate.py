@@ -4,12 +4,15 @@ import argparse
 import json
 import math
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from rich.cells import cell_len
 
 from app.analysis.evaluation import evaluate
 from app.analysis.notes import notes
@@ -22,6 +25,9 @@ from app.commands.flags.recording_flags import (
 )
 from app.commands.output_files import check_place, write
 from app.errors import UserError
+from app.terminal.bar import Bar
+from app.terminal.output import terminal
+from app.terminal.printable import printable
 from estimator import METRIC_INFO, Metrics, Parameters, to_nested
 
 _MEANS = tuple(key for key, info in METRIC_INFO.items() if info.kind != "count")
@@ -58,15 +64,18 @@ def run(options: argparse.Namespace) -> int:
         check_place(options.json)
     rows: list[dict[str, Any]] = []
     paths = recording_paths(options.paths)
-    table = _Table(max(20, *(len(path.stem) + 1 for path in paths)))  # names of means are longer
+    table = _Table([path.stem for path in paths])
     for line in table.heading():
         print(line)
+    console = terminal()
+    bar = Bar(console, len(paths)) if console else None
     for path in paths:
-        row, warnings = _row(path, opening, parameters)
+        with _shown(bar, len(rows), path.stem):
+            row, warnings = _row(path, opening, parameters)
         rows.append(row)
         print(table.line(path.stem, _cells(row)), flush=True)
         for warning in warnings:
-            print(warning, file=sys.stderr)
+            print(printable(warning), file=sys.stderr)
     means = _means(rows)
     for mean in means:
         print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
@@ -74,6 +83,19 @@ def run(options: argparse.Namespace) -> int:
         table_of_all = {"parameters": to_nested(parameters), "recordings": rows, "means": means}
         write(options.json, (json.dumps(table_of_all, indent=2) + "\n").encode())
     return 0 if any(row["pairs"] is not None for row in rows) else 1
+
+
+@contextmanager
+def _shown(bar: Bar | None, finished: int, name: str) -> Iterator[None]:
+    """A bar below the table, while a recording is under way."""
+    if bar is None:
+        yield
+        return
+    bar.show(finished, name)
+    try:
+        yield
+    finally:
+        bar.hide()
 
 
 def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
@@ -132,10 +154,16 @@ def _cells(row: dict[str, Any]) -> list[str]:
 
 
 class _Table:
-    """Lines whose columns stand below each other; names have `width` characters."""
+    """Lines whose columns stand below each other, printed as they come.
 
-    def __init__(self, width: int) -> None:
-        self._widths = [width, *(max(6, *map(len, words)) for words in _TITLES)]
+    Args:
+        names: of the recordings.
+    """
+
+    def __init__(self, names: list[str]) -> None:
+        longest = max(cell_len(printable(name)) for name in names)
+        # Names of means are longer.
+        self._widths = [max(20, longest + 1), *(max(6, *map(len, words)) for words in _TITLES)]
 
     def heading(self) -> list[str]:
         """The titles, a word a line, so that the table stays narrow; all end on the last line."""
@@ -148,4 +176,6 @@ class _Table:
         """A line of the table."""
         first, *widths = self._widths
         aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
-        return "  ".join([name.ljust(first), *aligned]).rstrip()
+        shown = printable(name)
+        shown += " " * (first - cell_len(shown))
+        return "  ".join([shown, *aligned]).rstrip()

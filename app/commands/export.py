@@ -9,6 +9,7 @@ from app.commands.flags.parameter_flags import add_parameter_flags, parameters_f
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
 from app.commands.output_files import check_place, write
 from app.errors import InputError
+from app.terminal.printable import printable
 from estimator import Parameters
 
 if TYPE_CHECKING:
@@ -124,8 +125,10 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     content = picture(opened, pair, parameters, _settings(options), framing)
     write(options.screenshot, content)
     print(
-        f"{options.screenshot}: frame {frame} of {opened.recording.name}, "
-        f"{width * len(views)} x {height}."
+        printable(
+            f"{options.screenshot}: frame {frame} of {opened.recording.name}, "
+            f"{width * len(views)} x {height}."
+        )
     )
 
 
@@ -153,8 +156,10 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
     content = page.encode()
     write(options.html, content)
     print(
-        f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
-        f"{len(content) / 1e6:.1f} MB."
+        printable(
+            f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
+            f"{len(content) / 1e6:.1f} MB."
+        )
     )
 
 

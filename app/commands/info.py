@@ -8,8 +8,19 @@ from typing import Any
 
 from app.commands.flags.recording_flags import Opening, add_recording_flags, opening_from
 from app.errors import UserError
+from app.terminal.printable import printable
+from app.terminal.tables import Column, show, table_of
 from recordings import Recording
 from recordings.info import FileInfo, TopicInfo, file_info
+
+_COLUMNS = (
+    Column(["topic"]),
+    Column(["type"]),
+    Column(["messages"], right=True),
+    Column(["rate"], right=True),
+    Column(["longest gap"], right=True),
+    Column(["used as"], wraps=True),
+)
 
 
 def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
@@ -36,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print(json.dumps(asdict(info) | {"recording": summary}, indent=2))
     else:
-        print(_text(info, summary))
+        _print(info, summary)
     return 0
 
 
@@ -64,16 +75,28 @@ def _described(recording: Recording) -> dict[str, Any]:
     }
 
 
-def _text(info: FileInfo, summary: dict[str, Any]) -> str:
-    lines = [f"{info.path}: {info.size / 1e6:.2f} MB, {info.duration:.2f} s", ""]
-    if info.cut_short:
-        lines.insert(1, "The file is cut short; what it holds up to there is used.")
+def _print(info: FileInfo, summary: dict[str, Any]) -> None:
+    _print_lines([f"{info.path}: {info.size / 1e6:.2f} MB, {info.duration:.2f} s"])
     if info.broken:
-        lines.insert(1, f"{info.broken} broken pieces of the file are left out.")
-    lines += [*_table([_cells(topic) for topic in info.topics]), ""]
+        print(f"{info.broken} broken pieces of the file are left out.")
+    if info.cut_short:
+        print("The file is cut short; what it holds up to there is used.")
+    print()
+    show(table_of(_COLUMNS, map(_cells, info.topics)))
+    print()
+    _print_lines(_lines(summary))
+
+
+def _print_lines(lines: list[str]) -> None:
+    for line in lines:
+        print(printable(line))
+
+
+def _lines(summary: dict[str, Any]) -> list[str]:
+    """What the file is as a recording."""
     if "problem" in summary:
-        return "\n".join([*lines, summary["problem"]])
-    lines += [
+        return [summary["problem"]]
+    lines = [
         f"frames        {summary['frames']} in {summary['duration']:.2f} s, "
         f"{summary['duplicates']} duplicates dropped, "
         f"{summary['frames_outside_known_poses']} outside the known poses",
@@ -92,8 +115,7 @@ def _text(info: FileInfo, summary: dict[str, Any]) -> str:
             f"imperfections {', '.join(source['imperfections']) or 'none'}",
             f"made by       {source['command']}",
         ]
-    lines += [f"warning       {warning}" for warning in summary["warnings"]]
-    return "\n".join(lines)
+    return lines + [f"warning       {warning}" for warning in summary["warnings"]]
 
 
 def _cells(topic: TopicInfo) -> list[str]:
@@ -105,13 +127,4 @@ def _cells(topic: TopicInfo) -> list[str]:
         "-" if topic.rate is None else f"{topic.rate:.1f} Hz",
         "-" if topic.longest_gap is None else f"{topic.longest_gap:.3f} s",
         use,
-    ]
-
-
-def _table(rows: list[list[str]]) -> list[str]:
-    table = [["topic", "type", "messages", "rate", "longest gap", "used as"], *rows]
-    widths = [max(len(row[column]) for row in table) for column in range(len(table[0]) - 1)]
-    return [
-        "  ".join([cell.ljust(w) for cell, w in zip(row, widths, strict=False)] + [row[-1]])
-        for row in table
     ]

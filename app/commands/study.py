@@ -28,8 +28,10 @@ from app.study.progress import Progress, duration
 from app.study.report import PAGE, Study, write_report
 from app.study.software import software_digest
 from app.study.store import Store
-from app.study.text_files import as_plain
+from app.study.text_files import for_terminal
 from app.study.work import Recorded, Work
+from app.terminal.printable import printable
+from app.terminal.tables import show
 from estimator import method_names
 from recordings.simulation import (
     IMPERFECTIONS,
@@ -130,14 +132,16 @@ def _run(options: argparse.Namespace) -> int:
         if not any(result.metrics for result in outcome.results)
     ]
     for failure in failures:
-        print(f"Not evaluated: {failure}", file=sys.stderr)
+        print(f"Not evaluated: {printable(failure)}", file=sys.stderr)
     if not any(result.metrics for outcome in finished for result in outcome.results):
         return 1
     estimated = monotonic()
     study = Study(plan, finished, failures, _command(), estimated - begin)
     for table in write_report(study, options.out):
         if table.name in _SHOWN or (table.name == "recordings" and plan.recordings):
-            print(as_plain(table))
+            print(printable(table.title))
+            show(for_terminal(table))
+            print()
     if caveat := truth_frame_text(plan).strip():
         print(caveat)
     making = sum(outcome.seconds for outcome in finished)
@@ -194,7 +198,7 @@ def _execute(
         running.close()
         progress.close()
         for said in unkept:
-            print(f"Not kept for another time: {said}", file=sys.stderr)
+            print(f"Not kept for another time: {printable(said)}", file=sys.stderr)
     return failures
 
 

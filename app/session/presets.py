@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from platformdirs import user_config_path
+
 from app.analysis.parameter_files import load, to_text
 from app.errors import InputError
 from estimator import Parameters
@@ -15,10 +17,8 @@ _NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
 
 
 def preset_folder() -> Path:
-    """Folder of the user's presets: $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
-    home = os.environ.get("XDG_CONFIG_HOME", "")
-    base = Path(home) if Path(home).is_absolute() else Path.home() / ".config"
-    return base / "tofscope" / "presets"
+    """Folder of the user's presets, on Linux $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
+    return user_config_path("tofscope", appauthor=False) / "presets"
 
 
 @dataclass(frozen=True)

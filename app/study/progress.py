@@ -1,12 +1,13 @@
-"""What is finished and what is left: a live line on a terminal, plain lines elsewhere."""
+"""Progress of a study: a bar at a terminal, plain lines elsewhere."""
 
-import shutil
-import sys
 from collections import deque
 from collections.abc import Sequence
 from time import monotonic
 
 from app.study.work import Simulated, Source, Work
+from app.terminal.bar import Bar
+from app.terminal.output import terminal
+from app.terminal.printable import printable
 
 _SIMULATING = 2.0
 """Estimates of a method over a recording that take as long as simulating it."""
@@ -28,11 +29,14 @@ class Progress:
         self._efforts = {work.source: _effort(work) for work in works}
         self._total = total
         self.finished = total - len(works)
-        self._live = sys.stdout.isatty()
+        console = terminal()
+        self._bar = Bar(console, total) if console else None
         begin = monotonic()
         self._begun = deque([begin] * min(at_once, len(works)))
         """When what is under way began, the earliest first."""
         self._done = self._spent = 0.0
+        if self._bar and works:
+            self._bar.show(self.finished, "", f"{len(works)} left")
 
     def advance(self, source: Source) -> None:
         """A unit of work is finished, and where there is more, another one begins."""
@@ -43,17 +47,16 @@ class Progress:
         self._spent += now - self._begun.popleft()
         if len(self._begun) < len(self._efforts):
             self._begun.append(now)
-        line = f"{self.finished}/{self._total}  {source.name}  {self._left(now)}"
-        if self._live:
-            width = shutil.get_terminal_size().columns - 1
-            print(f"\r\x1b[K{line[:width]}", end="", flush=True)
+        if self._bar:
+            self._bar.show(self.finished, source.name, self._left(now))
         else:
-            print(line, flush=True)
+            name = printable(source.name)
+            print(f"{self.finished}/{self._total}  {name}  {self._left(now)}", flush=True)
 
     def close(self) -> None:
-        """Clear the live line away."""
-        if self._live:
-            print("\r\x1b[K", end="", flush=True)
+        """Clear the bar away."""
+        if self._bar:
+            self._bar.hide()
 
     def _left(self, now: float) -> str:
         if not self._efforts:

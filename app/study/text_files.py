@@ -1,9 +1,15 @@
-"""Tables as text: CSV, Markdown, and plain for a terminal."""
+"""Tables as text: CSV, Markdown, and for a terminal."""
 
 import csv
 import io
+from typing import TYPE_CHECKING
 
 from app.study.table import Column, Table, shown
+from app.terminal.tables import Column as Titled
+from app.terminal.tables import table_of
+
+if TYPE_CHECKING:
+    from rich.table import Table as RichTable
 
 
 def as_csv(table: Table) -> str:
@@ -28,22 +34,11 @@ def as_markdown(table: Table, conditions: str) -> str:
     )
 
 
-def as_plain(table: Table) -> str:
-    """For a terminal: a title, and columns that stand below each other."""
-    titles = [_stacked(column) for column in table.columns]
-    depth = max(map(len, titles))
-    above = [[""] * (depth - len(words)) + words for words in titles]
-    body = [[shown(c, row[c.key]) for c in table.columns] for row in table.rows]
-    lines = [*map(list, zip(*above, strict=True)), *body]
-    widths = [max(len(line[i]) for line in lines) for i in range(len(titles))]
-    aligned = [
-        "  ".join(
-            cell.rjust(width) if column.form else cell.ljust(width)
-            for cell, width, column in zip(line, widths, table.columns, strict=True)
-        ).rstrip()
-        for line in lines
-    ]
-    return "\n".join([table.title, *aligned, ""])
+def for_terminal(table: Table) -> "RichTable":
+    """For a terminal, without its title."""
+    columns = [Titled(_stacked(column), right=bool(column.form)) for column in table.columns]
+    rows = ([shown(c, row[c.key]) for c in table.columns] for row in table.rows)
+    return table_of(columns, rows)
 
 
 def _stacked(column: Column) -> list[str]:

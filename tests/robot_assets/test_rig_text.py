@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from robot_assets import Rig, Sensor, SensorModel, load_rig, parse_rig, rig_text
+from robot_assets import Rig, RigError, Sensor, SensorModel, load_rig, parse_rig, rig_text
 
 
 def same(one: Rig, other: Rig) -> None:
@@ -46,6 +46,32 @@ def test_any_name_comes_back():
     name = 'a "quoted" \\ name\nof \t two \x7f lines, größer 🤖'
     rig = replace(load_rig(), name=name)
     assert again(rig).name == name
+
+
+@pytest.mark.parametrize(
+    ("rig", "said"),
+    [
+        (
+            replace(load_rig(), sensors=()),
+            r"^No file can hold the rig '.*': there must be at least ",
+        ),
+        (
+            replace(load_rig(), model=SensorModel(rows=1)),
+            "sensor_model.rows must be a whole number from 2 to 64, got 1",
+        ),
+        (
+            replace(load_rig(), sensors=(Sensor("a", "", "base", np.full((4, 4), np.nan)),)),
+            r"sensors\[0\].position_m must be three numbers, got \[nan, nan, nan\]",
+        ),
+        (
+            replace(load_rig(), sensors=2 * (Sensor("{a}", "", "base", np.eye(4)),)),
+            r"two sensors have the name '\{a\}'",
+        ),
+    ],
+)
+def test_a_rig_that_could_not_be_read_again_is_not_written(rig: Rig, said: str):
+    with pytest.raises(RigError, match=said):
+        rig_text(rig)
 
 
 def test_an_angle_is_written_as_a_person_would():

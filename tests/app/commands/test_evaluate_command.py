@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rich.cells import cell_len
 
 from app.command_line import main
 from estimator import METRIC_INFO
+from tests.app.terminal.screen import Screen
 from tests.conftest import REPOSITORY
 from tests.estimator.judge import judge
 from tests.recordings.foreign import ForeignFile, image
@@ -122,7 +124,43 @@ def test_columns_stand_below_their_titles_whatever_a_recording_is_called(
     assert ends[0] == ends[1] == ends[2]
     assert len(ends[0]) == len(METRIC_INFO)
     assert any("velocity" in line for line in above)
-    assert max(map(len, above)) <= len(titles) < 140
+    assert max(map(len, above)) <= len(titles) <= 140
+
+
+def test_rows_come_one_by_one_above_a_bar_at_a_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    for name in ("one", "two"):
+        write_room(tmp_path / f"{name}.mcap", frames=9, tells_points=True)
+    assert main(["evaluate", str(tmp_path)]) == 0
+    plain = capsys.readouterr().out
+    assert "\x1b" not in plain
+
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "60")
+    assert main(["evaluate", str(tmp_path)]) == 0
+    written = capsys.readouterr().out
+    screen = Screen(written, 200)
+    assert screen.lines == plain.splitlines()
+    assert screen.cursor_visible
+    *_, above, bar = Screen(written[: written.rindex("\x1b[2K")], 200).lines
+    assert above.startswith("one ")
+    assert re.fullmatch(r"1/2 \S+ +two +", bar.ljust(60))
+
+
+def test_names_of_files_do_a_terminal_no_harm(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    write_room(tmp_path / "a\x1b[31m表.mcap", frames=9)
+    (tmp_path / "b\nc.mcap").write_bytes(b"nonsense")
+    assert main(["evaluate", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    *_, first, second = out.splitlines()
+    assert first.startswith(r"a\x1b[31m表 ")
+    assert second.startswith(r"b\nc ")
+    # A sign of two columns takes two.
+    assert cell_len(first[: first.index(" 1 ")]) == second.index(" - ")
+    assert r"b\nc.mcap is not an MCAP file" in err
+    assert err.count("\n") == 1
 
 
 def test_where_nothing_moves_the_false_flow_is_known_alone(

@@ -3,12 +3,15 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.command_line import main
 from recordings import Provenance
 from recordings.simulation import SCENARIOS
 from recordings.writer import RecordingWriter
+from tests.app.terminal.screen import Screen
+from tests.recordings.foreign import ForeignFile, image, twist
 from tests.recordings.room import write_room
 from tests.recordings.simulation.made import RIG, ROBOT, frames, written
 
@@ -77,3 +80,56 @@ def test_info_of_a_file_that_is_not_mcap_is_one_sentence(
     path.write_bytes(b"")
     assert main(["info", str(path)]) == 1
     assert capsys.readouterr().err == f"tofscope info: {path} is empty.\n"
+
+
+def test_what_a_file_holds_does_a_terminal_no_harm(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    file = ForeignFile()
+    evil = image(0, "eye\x1b[2J", np.full((8, 8), 900, "<u2"), "16UC1")
+    file.add("/eye\x1b[31m\nimage", "sensor_msgs/msg/Image", evil, 0)
+    path = file.write(tmp_path / "a\x07.mcap")
+    assert main(["info", str(path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert all(line.isprintable() for line in lines)
+    assert any(line.startswith(r"/eye\x1b[31m\nimage  sensor_msgs/msg/Image") for line in lines)
+
+
+def test_lines_are_whole_and_plain_where_there_is_no_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("COLUMNS", "30")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    room = write_room(tmp_path / "room.mcap")
+    assert main(["info", str(room.path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert all(line.isprintable() and line == line.rstrip() for line in lines)
+    titles, *topics = lines[2 : 2 + 1 + 2 * 24 + 2]
+    assert titles.split() == ["topic", "type", "messages", "rate", "longest", "gap", "used", "as"]
+    ends = {line.index(" Hz") for line in topics if " Hz" in line}
+    assert len(ends) == 1
+    begins = {line.rindex("  ") for line in (titles, *topics)}
+    assert begins == {titles.index("used as") - 2}
+
+
+def test_at_a_terminal_the_uses_wrap_and_titles_are_bold(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    file = ForeignFile()
+    file.add("/speed", "geometry_msgs/msg/TwistStamped", twist(0, "map", np.zeros(3)), 0)
+    large = image(0, "eye", np.zeros((9, 70), "<u2"), "16UC1")
+    file.add("/eye", "sensor_msgs/msg/Image", large, 0)
+    path = file.write(tmp_path / "x.mcap")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "110")
+    assert main(["info", str(path)]) == 0
+    screen = Screen(capsys.readouterr().out, 110)
+    assert "1" in screen.styles
+    assert screen.lines[2].startswith("topic")
+    used = screen.lines[2].index("used as")
+    assert [line[used:] for line in screen.lines[3:6]] == [
+        "not used: it is 70 x 9, and a sensor has",
+        "2 x 2 to 64 x 64 zones",
+        "truth: velocity",
+    ]

@@ -3,6 +3,7 @@ import pytest
 from app.study.progress import Progress, duration
 from app.study.work import Ask, Simulated, Source, Work
 from estimator import Parameters
+from tests.app.terminal.screen import Screen
 
 
 def works(*names: str, sweep: int = 0) -> list[Work]:
@@ -62,19 +63,36 @@ def test_a_recording_with_a_sweep_takes_longer_than_one_without(
     assert "1 left, about 30 s" in capsys.readouterr().out
 
 
-def test_on_a_terminal_one_line_is_written_over_and_never_wraps(
+def test_on_a_terminal_a_bar_is_written_over(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
-    monkeypatch.setenv("COLUMNS", "30")
-    progress = Progress(works("a" * 50, "b"), total=2)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "60")
+    at(monkeypatch, 100.0, 110.0, 120.0)
+    progress = Progress(works("a" * 50, "b"), total=3)
+    written = capsys.readouterr().out
+    assert Screen(written, 60).lines[0].startswith("1/3 ")
+    assert Screen(written, 60).lines[0].endswith(" 2 left")
     progress.advance(_source("a" * 50))
+    written += capsys.readouterr().out
+    (line,) = Screen(written, 60).lines
+    assert line.startswith("2/3 ")
+    assert line.endswith(" 1 left, about 10 s")
+    assert "aaaa…" in line
     progress.close()
-    shown = capsys.readouterr().out
-    assert "\n" not in shown
-    lines = [line.removeprefix("\x1b[K") for line in shown.split("\r")]
-    assert max(map(len, lines)) == 29
-    assert lines[-1] == ""
+    progress.close()
+    written += capsys.readouterr().out
+    assert Screen(written, 60).lines == []
+
+
+def test_names_do_a_terminal_no_harm(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    at(monkeypatch, 0.0, 1.0)
+    progress = Progress(works("\x1b[2J"), total=1)
+    progress.advance(_source("\x1b[2J"))
+    assert capsys.readouterr().out == "1/1  \\x1b[2J_0.3_1  all finished\n"
 
 
 @pytest.mark.parametrize(("seconds", "said"), [(4.6, "5 s"), (99, "99 s"), (125, "2 min 05 s")])

@@ -2,7 +2,8 @@ import csv
 import io
 
 from app.study.table import Column, Table
-from app.study.text_files import as_csv, as_markdown, as_plain
+from app.study.text_files import as_csv, as_markdown, for_terminal
+from app.terminal.tables import plain
 
 TABLE = Table(
     "t",
@@ -29,16 +30,15 @@ def test_markdown_has_a_cell_for_every_column_whatever_names_hold():
     assert lines[-1] == "A note. Conditions."
 
 
-def test_plain_columns_stand_below_each_other():
-    lines = as_plain(TABLE).splitlines()
-    assert lines[0] == "A title"
-    assert [line.split() for line in lines[1:4]] == [
+def test_columns_at_a_terminal_stand_below_each_other():
+    lines = plain(for_terminal(TABLE)).splitlines()
+    assert [line.split() for line in lines[:3]] == [
         ["angle"],
         ["Name", "mean", "k"],
         ["a|b,", "c", "0.33", "7"],
     ]
     ends = [
         line.rindex(cell) + len(cell)
-        for line, cell in zip(lines[2:4], ("mean", "0.33"), strict=True)
+        for line, cell in zip(lines[1:3], ("mean", "0.33"), strict=True)
     ]
     assert ends[0] == ends[1]

@@ -1,14 +1,12 @@
 import argparse
-import json
-from dataclasses import asdict, fields
 from pathlib import Path
 
 import pytest
 
-from app.analysis.parameter_files import from_text, to_text
+from app.analysis.parameter_files import to_text
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.errors import InputError
-from estimator import ParameterError, Parameters
+from estimator import PARAMETER_INFO, ParameterError, Parameters
 
 
 def parsed(*arguments: str) -> Parameters:
@@ -34,7 +32,7 @@ def test_every_field_is_a_flag_of_its_own_name():
         "max_correspondence_distance": 0.25,
         "max_range": 1.5,
     }
-    assert set(values) == {field.name for field in fields(Parameters)}
+    assert set(values) == set(PARAMETER_INFO)
     flags: list[str] = []
     for name, value in values.items():
         flag = "--" + name.replace("_", "-")
@@ -53,27 +51,6 @@ def test_flags_win_over_a_file(tmp_path: Path):
     path.write_text(to_text(Parameters(n=3, gamma=0.5)))
     assert parsed("--parameters", str(path)) == Parameters(n=3, gamma=0.5)
     assert parsed("--parameters", str(path), "--n", "8") == Parameters(n=8, gamma=0.5)
-
-
-def test_a_table_of_evaluate_is_parameters_too():
-    parameters = Parameters(n=2, min_samples=5)
-    table = json.dumps({"parameters": asdict(parameters), "recordings": []})
-    assert from_text(table, "table.json") == parameters
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("{", "x.json is not JSON"),
-        ("[1]", "must hold parameters"),
-        ('{"gama": 1}', "names gama, which is no parameter; parameters are n, gamma"),
-        ('{"gamma": 2}', "x.json: gamma must be between 0 and 1, got 2"),
-        ('{"n": "8"}', "n must be a whole number, got '8'"),
-    ],
-)
-def test_wrong_files_are_one_sentence(text: str, said: str):
-    with pytest.raises(InputError, match=said):
-        from_text(text, "x.json")
 
 
 def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path):

@@ -1,0 +1,18 @@
+import pytest
+
+from app.terminal.printable import printable
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a plain größe – 表 🤖", "a plain größe – 表 🤖"),
+        ("\x1b[31mred\x07", r"\x1b[31mred\x07"),
+        ("two\nlines\r\t", r"two\nlines\r\t"),
+        ("\x9b2J", r"\x9b2J"),
+        ("gpj\u202etxt", r"gpj\u202etxt"),
+        ("\udcff.mcap", r"\udcff.mcap"),  # how Python gives a name that is no text
+    ],
+)
+def test_what_a_terminal_would_obey_is_an_escape(text: str, said: str):
+    assert printable(text) == said
