@@ -15,7 +15,7 @@ class _Slot(Generic[V]):
         self.value: V | None = None
 
 
-class Memory(Generic[K, V]):
+class Cache(Generic[K, V]):
     """The `size` values that were asked for last; each is made once, also under many threads."""
 
     def __init__(self, size: int) -> None:

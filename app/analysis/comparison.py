@@ -43,7 +43,7 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class Compared:
+class FrameEstimate:
     """One frame with the edited parameters, and with the other ones.
 
     Attributes:
@@ -59,22 +59,22 @@ class Compared:
     problem: Exception | None
 
 
-def compared(
+def estimate_frame(
     estimates: Estimates,
     opened: Opened,
     frame: int,
     parameters: Parameters,
     comparison: Comparison | None,
-) -> Compared:
+) -> FrameEstimate:
     """Estimate what is shown of a frame; what is not shown is looked up, not estimated."""
     pair, problem = _estimated(estimates, opened, frame, parameters)
     if comparison is None:
-        return Compared(pair, None, None, problem)
+        return FrameEstimate(pair, None, None, problem)
     if not comparison.both:
         known = estimates.known(opened, frame, comparison.other)
-        return Compared(pair, known, None, problem)
+        return FrameEstimate(pair, known, None, problem)
     other, failed = _estimated(estimates, opened, frame, comparison.other)
-    return Compared(pair, other, other, problem or failed)
+    return FrameEstimate(pair, other, other, problem or failed)
 
 
 def _estimated(

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from app.analysis.cache import Memory
+from app.analysis.cache import Cache
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, PreparedPair, make_pair, window_of
-from app.analysis.timeline import Outline
+from app.analysis.timeline import RecordedTimeline
 from estimator import Parameters, Stages, estimate_scene_flow
 from recordings import Cloud
 
@@ -36,11 +36,11 @@ class Estimates:
     def __init__(
         self, clouds: int = 400, pairs: int = 200, flows: int = 400, estimators: int = 16
     ) -> None:
-        self._clouds: Memory[tuple, Cloud] = Memory(clouds)
-        self._prepared: Memory[tuple, tuple[Pair, Stages]] = Memory(pairs)
-        self._pairs: Memory[tuple, Pair] = Memory(flows)
-        self._estimators: Memory[tuple, PairEstimator] = Memory(estimators)
-        self._outlines: Memory[tuple, Outline] = Memory(16)
+        self._clouds: Cache[tuple, Cloud] = Cache(clouds)
+        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(pairs)
+        self._pairs: Cache[tuple, Pair] = Cache(flows)
+        self._estimators: Cache[tuple, PairEstimator] = Cache(estimators)
+        self._recorded_timelines: Cache[tuple, RecordedTimeline] = Cache(16)
         self.foreground = Foreground()
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
@@ -64,7 +64,7 @@ class Estimates:
 
         return self._pairs.get((opened.key, k, parameters), make)
 
-    def estimated_ahead(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+    def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The same in the background: it is not counted as work in the foreground."""
         return self._pairs.get(
             (opened.key, k, parameters), lambda: self._estimate(opened, k, parameters)
@@ -74,11 +74,11 @@ class Estimates:
         """The pair (k-n, k) with its flow where it was estimated already."""
         return self._pairs.known((opened.key, k, parameters))
 
-    def outline(self, opened: Opened) -> Outline:
+    def recorded_timeline(self, opened: Opened) -> RecordedTimeline:
         """The recording's own part of its timeline."""
-        return self._outlines.get(opened.key, lambda: Outline(opened.recording))
+        return self._recorded_timelines.get(opened.key, lambda: RecordedTimeline(opened.recording))
 
-    def remembered(self, opened: Opened, parameters: Parameters) -> list[Pair]:
+    def cached(self, opened: Opened, parameters: Parameters) -> list[Pair]:
         """All pairs of a recording that were estimated with these parameters, as far as known."""
         # A recording may have many more frames than are remembered.
         return [

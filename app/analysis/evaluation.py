@@ -15,7 +15,7 @@ from recordings import Recording, RecordingError
 
 
 @dataclass(frozen=True)
-class Ask:
+class EvaluationCase:
     """Parameters to evaluate a recording with.
 
     Attributes:
@@ -45,7 +45,7 @@ class Evaluation:
 class _Running:
     """An evaluation under way."""
 
-    ask: Ask
+    case: EvaluationCase
     estimator: PairEstimator
     errors: PooledErrors = field(default_factory=PooledErrors)
     seconds: float = 0.0
@@ -57,31 +57,31 @@ def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
     Raises:
         RecordingError: the file is broken at a pair that counts.
     """
-    return evaluate_all(recording, [Ask(parameters)])[0].metrics
+    return evaluate_all(recording, [EvaluationCase(parameters)])[0].metrics
 
 
-def evaluate_all(recording: Recording, asks: Sequence[Ask]) -> list[Evaluation]:
+def evaluate_all(recording: Recording, cases: Sequence[EvaluationCase]) -> list[Evaluation]:
     """Evaluate several sets of parameters; a pair's stages that they share are computed once.
 
     Pairs that do not count are left out where the file is broken at them.
 
     Args:
         recording: what is estimated.
-        asks: in any order.
+        cases: in any order.
 
     Returns:
-        An evaluation for each ask, in their order.
+        An evaluation for each case, in their order.
 
     Raises:
         RecordingError: the file is broken at a pair that counts.
     """
     if not recording.has_truth:
-        return [Evaluation(None, 0.0) for _ in asks]
-    found: dict[Ask, Evaluation] = {}
-    in_groups = sorted(asks, key=_window_settings)
+        return [Evaluation(None, 0.0) for _ in cases]
+    found: dict[EvaluationCase, Evaluation] = {}
+    in_groups = sorted(cases, key=_window_settings)
     for _, group in groupby(in_groups, key=_window_settings):
         found |= _evaluate_together(recording, list(dict.fromkeys(group)))
-    return [found[ask] for ask in asks]
+    return [found[case] for case in cases]
 
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
@@ -98,19 +98,21 @@ def moves(recording: Recording, k: int) -> bool:
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
 
 
-def _window_settings(ask: Ask) -> tuple[int, float]:
+def _window_settings(case: EvaluationCase) -> tuple[int, float]:
     """Settings that decide which windows are looked at."""
-    return ask.parameters.n, ask.parameters.max_range
+    return case.parameters.n, case.parameters.max_range
 
 
-def _evaluate_together(recording: Recording, asks: Sequence[Ask]) -> dict[Ask, Evaluation]:
+def _evaluate_together(
+    recording: Recording, cases: Sequence[EvaluationCase]
+) -> dict[EvaluationCase, Evaluation]:
     """Evaluate sets of parameters that look at the same windows, each of which is made once."""
-    parameters = asks[0].parameters
+    parameters = cases[0].parameters
     windows = _LastPrepared(recording, parameters)
-    running = [_Running(ask, PairEstimator(ask.parameters)) for ask in asks]
+    running = [_Running(case, PairEstimator(case.parameters)) for case in cases]
     counting = {k for _, k in counting_pairs(recording, parameters.n)}
     for k in range(parameters.n, len(recording)):
-        wanted = [run for run in running if k in counting or run.ask.resting]
+        wanted = [run for run in running if k in counting or run.case.resting]
         for run in wanted:
             begin = thread_time()
             try:
@@ -120,7 +122,7 @@ def _evaluate_together(recording: Recording, asks: Sequence[Ask]) -> dict[Ask, E
                 if k in counting:
                     raise
             run.seconds += thread_time() - begin
-    return {run.ask: _finished(run) for run in running}
+    return {run.case: _finished(run) for run in running}
 
 
 def _include(run: _Running, windows: "_LastPrepared", k: int, *, counts: bool) -> None:
@@ -134,7 +136,7 @@ def _include(run: _Running, windows: "_LastPrepared", k: int, *, counts: bool) -
 
 def _finished(run: _Running) -> Evaluation:
     metrics = run.errors.metrics()
-    if not run.ask.resting:
+    if not run.case.resting:
         metrics = replace(metrics, false_flow=math.nan)
     return Evaluation(metrics, run.seconds)
 

@@ -39,11 +39,11 @@ class LiveTimeline:
         return self._last[2]
 
     def _look(self, opened: Opened, parameters: Parameters) -> Timeline:
-        outline, survey = self._estimates.outline(opened), self._survey
-        empty, moving = [False] * outline.count, [False] * outline.count
+        recorded, survey = self._estimates.recorded_timeline(opened), self._survey
+        empty, moving = [False] * recorded.count, [False] * recorded.count
         if survey is not None:
             empty, moving = survey.empty.tolist(), (survey.moving > 0).tolist()
-        for pair in self._estimates.remembered(opened, parameters):
+        for pair in self._estimates.cached(opened, parameters):
             empty[pair.frame] = len(pair.target.points) == 0
             moving[pair.frame] = pair.anything_moves
-        return outline.with_estimates(empty, moving)
+        return recorded.with_estimates(empty, moving)

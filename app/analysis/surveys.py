@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
-from app.analysis.cache import Memory
+from app.analysis.cache import Cache
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.pairs import Pair
@@ -42,7 +42,7 @@ class Surveys:
 
     def __init__(self, estimates: Estimates, remembered: int = 16) -> None:
         self._estimates = estimates
-        self._surveys: Memory[tuple, Survey] = Memory(remembered)
+        self._surveys: Cache[tuple, Survey] = Cache(remembered)
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}
         self._thread: threading.Thread | None = None
@@ -111,7 +111,7 @@ class Surveys:
         survey = request.survey = request.survey or self._surveys.get(
             (opened.key, parameters), lambda: Survey(opened.recording, parameters)
         )
-        for known in self._estimates.remembered(opened, parameters):
+        for known in self._estimates.cached(opened, parameters):
             if not survey.done[known.frame]:  # who plays or scrubs has computed it already
                 survey.put(known.frame, known)
         k = survey.missing()
@@ -128,7 +128,7 @@ class Surveys:
 
     def _pair(self, request: _Request, k: int) -> Pair | None:
         try:
-            return self._estimates.estimated_ahead(request.opened, k, request.parameters)
+            return self._estimates.estimated_in_background(request.opened, k, request.parameters)
         except UserError:
             return None  # whoever goes to this frame is told why
         except Exception:

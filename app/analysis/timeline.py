@@ -31,7 +31,7 @@ class Timeline:
     moving: tuple[tuple[int, int], ...]
 
 
-class Outline:
+class RecordedTimeline:
     """What a recording says of its timeline by itself.
 
     Attributes:

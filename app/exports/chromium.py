@@ -24,7 +24,7 @@ _FLAGS = (
 
 
 @contextlib.contextmanager
-def hidden_page(address: str, width: int, height: int) -> Iterator[None]:
+def headless_page(address: str, width: int, height: int) -> Iterator[None]:
     """Have a page open meanwhile, in a window of this size in pixels.
 
     Raises:

@@ -13,11 +13,11 @@ from app.browser.internals import NO_FLASH, PAGE_TITLE
 from app.errors import InputError
 from app.exports.captions import caption
 from app.scene.camera import Camera
-from app.scene.legend import Legend, Mark
+from app.scene.legend import Legend, LegendEntry
 from app.scene.legend_html import html
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
-from app.scene.theme import dress
+from app.scene.theme import apply_theme
 from estimator import Parameters
 from recordings import Recording
 
@@ -65,29 +65,29 @@ def offline_page(
     # The recorder of viser's messages belongs to a server, and hears what is drawn for everybody.
     server = GuardedServer("127.0.0.1", 0)
     try:
-        dress(server.gui, settings.dark)
+        apply_theme(server.gui, settings.dark)
         scene = Scene(server, settings)
         scene.open(recording)
         scene.change(settings)
-        first = estimates.estimated_ahead(opened, frames[0], parameters)
+        first = estimates.estimated_in_background(opened, frames[0], parameters)
         scene.show(first)
         if isinstance(stand, Camera):
-            scene.stand(stand)
+            scene.set_camera(stand)
         else:
             scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), stand)
-        marks: dict[str, Mark] = {}
+        entries: dict[str, LegendEntry] = {}
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)
-            pair = estimates.estimated_ahead(opened, k, parameters)
+            pair = estimates.estimated_in_background(opened, k, parameters)
             if comparison is not None and comparison.both:
-                other = estimates.estimated_ahead(opened, k, comparison.other)
+                other = estimates.estimated_in_background(opened, k, comparison.other)
                 scene.show(pair, other, comparison.edited)
             else:
                 scene.show(pair)
-            marks |= {mark.text: mark for mark in scene.legend.marks}
+            entries |= {entry.text: entry for entry in scene.legend.entries}
             recorder.insert_sleep(pause)
-        legend = Legend(tuple(marks.values()), scene.legend.ramp, settings.dark)
+        legend = Legend(tuple(entries.values()), scene.legend.ramp, settings.dark)
         page = recorder.as_html(dark_mode=settings.dark)
     finally:
         server.stop()

@@ -13,10 +13,10 @@ from app.analysis.pairs import Pair
 from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
 from app.exports.captions import caption
-from app.exports.chromium import hidden_page
-from app.exports.pictures import finished, png, side_by_side
+from app.exports.chromium import headless_page
+from app.exports.pictures import composed, png, side_by_side
 from app.scene import theme
-from app.scene.photograph import Photographer
+from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from estimator import Parameters
@@ -25,7 +25,7 @@ _TIMEOUT = 120.0  # seconds until a picture must be there
 
 
 @dataclass(frozen=True)
-class Framing:
+class PictureSettings:
     """What a picture takes in.
 
     Attributes:
@@ -44,7 +44,11 @@ class Framing:
 
 
 def picture(
-    opened: Opened, pair: Pair, parameters: Parameters, settings: ViewSettings, framing: Framing
+    opened: Opened,
+    pair: Pair,
+    parameters: Parameters,
+    settings: ViewSettings,
+    framing: PictureSettings,
 ) -> bytes:
     """PNG of a pair as the app draws it; what it shows is in the file's text.
 
@@ -70,7 +74,7 @@ def picture(
 
         address = f"http://127.0.0.1:{server.get_port()}"
         # The size of points follows the window, which is why it is as large as the picture.
-        with hidden_page(address, framing.width, framing.height):
+        with headless_page(address, framing.width, framing.height):
             if not arrived.wait(_TIMEOUT):
                 raise InputError(f"Chromium did not show the scene within {_TIMEOUT:.0f} s.")
             client = clients[0]
@@ -80,28 +84,28 @@ def picture(
                 scene.change(settings)
                 scene.show(pair)
                 scene.place_camera(pair, framing.views[0], framing.width / framing.height)
-            photographer = Photographer(client, scene)
-            taken = [_settled(photographer, pair, view, framing) for view in framing.views]
+            renderer = SceneRenderer(client, scene)
+            taken = [_settled(renderer, pair, view, framing) for view in framing.views]
             legend = scene.legend if framing.legend else None
     finally:
         server.stop()
     background = None if framing.transparent else theme.background(settings.dark)
     legends = [legend] + [None] * len(taken)
     pictures = [
-        finished(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
+        composed(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
     ]
     return png(side_by_side(pictures), caption(opened.recording, parameters, pair.frame))
 
 
 def _settled(
-    photographer: Photographer, pair: Pair, view: str, framing: Framing
+    renderer: SceneRenderer, pair: Pair, view: str, framing: PictureSettings
 ) -> NDArray[np.uint8]:
     """The picture (H, W, 4), once it does not change any more."""
     end = time.monotonic() + _TIMEOUT
     before: NDArray[np.uint8] | None = None
     while time.monotonic() < end:
         try:
-            pixels = photographer.take(pair, view, framing.width, framing.height)
+            pixels = renderer.render(pair, view, framing.width, framing.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
                 f"Chromium gave no picture of {framing.width} x {framing.height} ({error}); "

@@ -17,7 +17,7 @@ _DARK_INK, _LIGHT_INK = (38, 40, 44, 255), (230, 231, 234, 255)
 _DARK_GROUND, _LIGHT_GROUND = (28, 29, 32, 205), (255, 255, 255, 217)
 
 
-def finished(
+def composed(
     pixels: NDArray[np.uint8], background: Colour | None, legend: Legend | None
 ) -> Image.Image:
     """A rendered image with its background and legend.
@@ -64,9 +64,9 @@ def _draw_legend(picture: Image.Image, legend: Legend, dark: bool) -> None:
     size = max(9, round(_TEXT * picture.height))
     font, draw = ImageFont.load_default(size), ImageDraw.Draw(picture)
     line, left, dot = round(1.5 * size), size, round(0.7 * size)
-    top = picture.height - size - line * (len(legend.marks) + (legend.ramp is not None))
+    top = picture.height - size - line * (len(legend.entries) + (legend.ramp is not None))
     ink, ground = (_LIGHT_INK, _DARK_GROUND) if dark else (_DARK_INK, _LIGHT_GROUND)
-    widths = [1.7 * dot + draw.textlength(mark.text, font) for mark in legend.marks]
+    widths = [1.7 * dot + draw.textlength(entry.text, font) for entry in legend.entries]
     if legend.ramp is not None:
         widths.append(9 * size + draw.textlength(legend.ramp.low + legend.ramp.high, font))
     edge = left // 2
@@ -78,11 +78,11 @@ def _draw_legend(picture: Image.Image, legend: Legend, dark: bool) -> None:
         fill=ground,
     )
     picture.alpha_composite(shade)
-    for mark in legend.marks:
+    for entry in legend.entries:
         middle = top + line / 2
         box = (left, middle - dot / 2, left + dot, middle + dot / 2)
-        draw.ellipse(box, fill=(*mark.colour, 255))
-        draw.text((left + 1.7 * dot, middle), mark.text, fill=ink, font=font, anchor="lm")
+        draw.ellipse(box, fill=(*entry.colour, 255))
+        draw.text((left + 1.7 * dot, middle), entry.text, fill=ink, font=font, anchor="lm")
         top += line
     if legend.ramp is not None:
         middle = top + line // 2

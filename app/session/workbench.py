@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import viser
 
-from app.analysis.comparison import A, Comparison, compared
+from app.analysis.comparison import A, Comparison, estimate_frame
 from app.analysis.estimates import Estimates
 from app.analysis.first_frame import first_frame_with_flow
 from app.analysis.library import Entry, Library, Opened
@@ -16,7 +16,7 @@ from app.analysis.live_timeline import LiveTimeline
 from app.analysis.pairs import Pair
 from app.analysis.selection import Selection, cluster_at, cluster_of
 from app.scene.framing import Framing
-from app.scene.photograph import Photographer
+from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from app.session.clock import PlaybackClock
@@ -55,7 +55,7 @@ class Workbench:
         settings: of the drawing; `change_view` changes them.
         scene: in the client's browser.
         framing: puts the scene's camera to views.
-        photographer: takes pictures of the scene.
+        renderer: takes pictures of the scene.
         pair: that is drawn, None where none is.
         preset_use: the last use of a preset, None where none was used.
         outbox: messages for the browser, taken by the next status or snapshot.
@@ -84,7 +84,7 @@ class Workbench:
         self.sought: Sought | None = None
         self.scene = Scene(client, settings)
         self.framing = Framing(client, self.scene)
-        self.photographer = Photographer(client, self.scene)
+        self.renderer = SceneRenderer(client, self.scene)
         self.pair: Pair | None = None
         self.preset_use: PresetUse | None = None
         self.outbox: list[Message] = []
@@ -181,7 +181,7 @@ class Workbench:
         self.seek(saved.frame)
         self.tuning.comparison = saved.comparison
         if saved.camera:
-            self.framing.stand(saved.camera)
+            self.framing.start_from(saved.camera)
         if saved.playback:
             self.clock.change(asdict(saved.playback), self.frame, time.monotonic())
         if saved.playing:
@@ -265,7 +265,7 @@ class Workbench:
         self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
     ) -> None:
         self.pair = self._other = None
-        found = compared(self.estimates, opened, frame, parameters, comparison)
+        found = estimate_frame(self.estimates, opened, frame, parameters, comparison)
         self.pair, self._other = found.pair, found.other
         with self._client.atomic():
             self._picked = self._selection.follow(found.pair)
@@ -278,7 +278,7 @@ class Workbench:
             if self._drawn is None or self._drawn[0] is not opened:
                 self.framing.begin(found.pair)
             else:
-                self.framing.seen(found.pair)
+                self.framing.retry_first_view(found.pair)
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem

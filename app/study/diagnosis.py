@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from app.analysis.evaluation import counting_pairs
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, prepare_pair
-from app.study.words import span
+from app.study.ranges import span
 from estimator import MOVING_SPEED, Label, Parameters, SceneFlow
 from recordings import Recording
 
@@ -17,7 +17,7 @@ _WRONG = 0.5
 """Share of their true way that a cluster's points are off by where its alignment is wrong."""
 
 
-def why_no_flow(recording: Recording, parameters: Parameters) -> str | None:
+def diagnose_missing_flow(recording: Recording, parameters: Parameters) -> str | None:
     """What became of the points that truly move, in the middle one of the pairs that count.
 
     None where no pair counts, or the truth of points is not known, or none of them moves.
@@ -40,7 +40,7 @@ def why_no_flow(recording: Recording, parameters: Parameters) -> str | None:
     )
 
 
-def what_went_wrong(recording: Recording, parameters: Parameters) -> str | None:
+def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> str | None:
     """Fitness and displacement of the moving clusters that ICP aligned wrongly.
 
     None where there is none, or the truth of points is not known.

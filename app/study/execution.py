@@ -11,7 +11,7 @@ from typing import Any
 from app.analysis.method_files import load_method
 from app.errors import InputError
 from app.study.software import software_digest
-from app.study.work import Outcome, Work, do
+from app.study.work import Outcome, Work, run_work
 
 _PATIENCE = 10  # seconds to wait for a scheduler
 
@@ -38,7 +38,7 @@ def outcomes(
     with tempfile.TemporaryDirectory(prefix="tofscope-study-") as scratch:
         if jobs == 1 or len(works) < 2:
             for work in works:
-                yield do(work, software_digest(work.method_files), Path(scratch))
+                yield run_work(work, software_digest(work.method_files), Path(scratch))
         else:
             yield from _on_cores(works, min(jobs, len(works)), Path(scratch))
 
@@ -50,7 +50,7 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     begin = partial(_begin_worker, files)
     with parallel_config("loky", inner_max_num_threads=1, initializer=begin):
         done: Any = Parallel(n_jobs=jobs, return_as="generator_unordered")(
-            delayed(do)(work, software_digest(files), scratch) for work in works
+            delayed(run_work)(work, software_digest(files), scratch) for work in works
         )
     try:
         yield from done
@@ -105,7 +105,7 @@ def _on_dask(works: list[Work], address: str) -> Iterator[Outcome]:
     with client:
         if files:
             client.register_plugin(_method_loader(files))
-        futures = client.map(do, works, software=software_digest(files), pure=False)
+        futures = client.map(run_work, works, software=software_digest(files), pure=False)
         by_future = dict(zip(futures, works, strict=True))
         try:
             for future in as_completed(futures):

@@ -8,14 +8,14 @@ from statistics import median
 from app.study.paper import (
     FRAME,
     LABELS,
-    Printed,
+    PaperRow,
     experiment_label,
     method_label,
     paper_numbers,
 )
 from app.study.plan import Plan
+from app.study.ranges import span
 from app.study.rows import Row, cell, mean, mean_of, speeds_of, std, values
-from app.study.words import span
 from app.study.work import SWEPT_SCENARIO
 from recordings.simulation import SPEEDS
 
@@ -116,7 +116,7 @@ def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
         yield from _trend(label, angles, theirs)
 
 
-def _spread(label: str, ours: list[float | None], theirs: list[Printed]) -> Iterator[str]:
+def _spread(label: str, ours: list[float | None], theirs: list[PaperRow]) -> Iterator[str]:
     """How trials differ."""
     found = [deviation for deviation in ours if deviation is not None]
     if not found:
@@ -130,7 +130,7 @@ def _spread(label: str, ours: list[float | None], theirs: list[Printed]) -> Iter
     )
 
 
-def _trend(label: str, ours: list[float], theirs: list[Printed]) -> Iterator[str]:
+def _trend(label: str, ours: list[float], theirs: list[PaperRow]) -> Iterator[str]:
     """Whether errors go with the speed as the paper's do, where those do."""
     printed = [p.angle_mean for p in theirs]
     if len(ours) < 3 or (there := _course(printed)) == "stays":
@@ -165,7 +165,7 @@ def _outlying(plan: Plan, rows: list[Row]) -> Iterator[str]:
             error = row.metrics.get("velocity_error")
             if error is None:
                 continue
-            why = f" {row.why}" if row.why else ""
+            why = f" {row.diagnosis}" if row.diagnosis else ""
             label = f"{experiment_label(scenario, method)} at {speed:.2f} m/s: trial {row.trial}"
             has = f"{row.metrics.get('angle_deg') or 0.0:.1f} deg and {error:.3f} m/s"
             if error > _FAR * middle:
@@ -248,7 +248,7 @@ def _not_computed(plan: Plan, rows: list[Row]) -> Iterator[str]:
                 yield f"{said}: the object does not move for {n} frames, and no pair counts."
                 continue
             far = ", ".join(f"{s * n * FRAME:.2f}" for s in empty)
-            reasons = [row.why.partition(": ")[2] for row in here if row.why]
+            reasons = [row.diagnosis.partition(": ")[2] for row in here if row.diagnosis]
             why = f" What became of it, for example: {_commonest(reasons)}" if reasons else ""
             yield (
                 f"{said}: {pairs:.0f} pairs count, between whose clouds the object goes {far} m, "
@@ -278,7 +278,7 @@ def _where_paper_has_nothing(plan: Plan, rows: list[Row]) -> Iterator[str]:
     falling = ", ".join(f"{c:.2f} at n = {m}" for m, c in coverage.items() if m > 5 and c)
     reach = plan.parameters.max_correspondence_distance
     silent = [row for row in here if not row.metrics.get("points_with_flow")]
-    reasons = [row.why.partition(": ")[2] for row in silent if row.why]
+    reasons = [row.diagnosis.partition(": ")[2] for row in silent if row.diagnosis]
     yield (
         f"At n = {n} and {speed:.2f} m/s the paper could compute nothing: the two clouds of the "
         "object are too far apart to share clusters. Here "

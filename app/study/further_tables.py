@@ -6,9 +6,9 @@ from itertools import product
 from app.study.conditions import truth_frame_text
 from app.study.paper import FRAME, LABELS, experiment_label
 from app.study.plan import Plan
+from app.study.ranges import span
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
-from app.study.words import span
 from app.study.work import SWEPT_SCENARIO, Simulated
 from estimator import METRIC_INFO, MOVING_SPEED
 from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS

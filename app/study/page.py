@@ -21,7 +21,7 @@ th.group { text-align: center; border-bottom: 1px solid; }
 table { border-top: 2px solid; border-bottom: 2px solid; }
 thead tr:last-child th { border-bottom: 1px solid; }
 tr.next td { border-top: 1px solid #8886; }
-td.theirs, th.theirs { color: #767676; font-weight: 400; }
+td.paper, th.paper { color: #767676; font-weight: 400; }
 .note { font-size: 13px; color: #767676; }
 .simulated { padding: .5rem .8rem; border-left: 4px solid #d55e00; background: #d55e0018; }
 code, pre { font-size: 13px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; }
@@ -94,7 +94,7 @@ def folded(heading: str, block: str) -> str:
 def table(content: Table) -> str:
     """A table with its note."""
     head = "".join(
-        f'<th class="{"text" if not c.form else "theirs" if c.theirs else ""}">'
+        f'<th class="{"text" if not c.form else "paper" if c.from_paper else ""}">'
         f"{escape(c.title)}</th>"
         for c in content.columns
     )
@@ -108,7 +108,7 @@ def table(content: Table) -> str:
         first = row[content.columns[0].key]
         style = ' class="next"' if before not in (None, first) else ""
         cells = "".join(
-            f'<td class="{"text" if not c.form else "theirs" if c.theirs else ""}">'
+            f'<td class="{"text" if not c.form else "paper" if c.from_paper else ""}">'
             f"{escape(shown(c, row[c.key]))}</td>"
             for c in content.columns
         )

@@ -18,7 +18,7 @@ FRAME = 1 / 15
 
 
 @dataclass(frozen=True)
-class Printed:
+class PaperRow:
     """A row of the paper's tables: means and standard deviations over its trials.
 
     Attributes:
@@ -44,7 +44,7 @@ class PaperNumbers:
     """
 
     source: str
-    rows: dict[tuple[str, str, float], Printed]
+    rows: dict[tuple[str, str, float], PaperRow]
 
 
 @cache
@@ -52,8 +52,8 @@ def paper_numbers() -> PaperNumbers:
     """Read the data file."""
     content = tomllib.loads(files("app.study").joinpath("paper_numbers.toml").read_text("utf-8"))
     rows = {
-        (e["scenario"], e["method"], speed): Printed(
-            **{key: e[key][i] for key in Printed.__dataclass_fields__}
+        (e["scenario"], e["method"], speed): PaperRow(
+            **{key: e[key][i] for key in PaperRow.__dataclass_fields__}
         )
         for e in content["experiment"]
         for i, speed in enumerate(e["speed"])

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
-from app.analysis.evaluation import Ask
+from app.analysis.evaluation import EvaluationCase
 from app.study.work import SWEPT_SCENARIO, Recorded, Simulated, Source, Work
 from estimator import Parameters
 from recordings.simulation import (
@@ -61,12 +61,14 @@ class Plan:
 
     def works(self) -> list[Work]:
         """Every unit of work, a recording once, in a fixed order."""
-        asks = tuple(Ask(parameters) for parameters in self._parameters([self.parameters.n]))
+        cases = tuple(
+            EvaluationCase(parameters) for parameters in self._parameters([self.parameters.n])
+        )
         sweep = self._parameters(self.sweep)
         files = self.method_files
-        works = {source: Work(source, asks, sweep, files) for source in self.sources()}
+        works = {source: Work(source, cases, sweep, files) for source in self.sources()}
         for source in self.ablation_sources():
-            works.setdefault(source, Work(source, asks, method_files=files))
+            works.setdefault(source, Work(source, cases, method_files=files))
         return list(works.values())
 
     def sources(self) -> list[Source]:

@@ -32,7 +32,7 @@ class Row:
     trial: int | None
     parameters: Parameters
     metrics: dict[str, float | None]
-    why: str | None = None
+    diagnosis: str | None = None
 
 
 def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
@@ -43,9 +43,9 @@ def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
             outcome.scenario,
             outcome.speed,
             outcome.trial,
-            result.ask.parameters,
+            result.case.parameters,
             result.metrics or {},
-            result.why,
+            result.diagnosis,
         )
         for outcome in outcomes
         for result in outcome.results

@@ -40,7 +40,7 @@ def versions() -> dict[str, str]:
 
 _OF_APP = (
     *(f"analysis/{name}.py" for name in ("pairs", "pair_estimator", "evaluation")),
-    *(f"study/{name}.py" for name in ("work", "diagnosis", "words")),
+    *(f"study/{name}.py" for name in ("work", "diagnosis", "ranges")),
 )
 """Files of `app` that decide results."""
 

@@ -8,7 +8,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from app.analysis.evaluation import Ask
+from app.analysis.evaluation import EvaluationCase
 from app.errors import InputError
 from app.study.work import Outcome, Recorded, Result, Source, Work
 from estimator import from_nested, to_nested
@@ -46,17 +46,17 @@ class Store:
         found = self._load(work.source)
         if found is None:
             return None
-        known = {result.ask: result for result in found.results}
+        known = {result.case: result for result in found.results}
         wanted = work.wanted(found.scenario)
-        return replace(found, results=tuple(known[ask] for ask in wanted if ask in known))
+        return replace(found, results=tuple(known[case] for case in wanted if case in known))
 
     def missing(self, work: Work) -> Work | None:
         """What remains to be done of a unit of work, None where all is known."""
         found = self.finished(work)
         if found is None:
             return work
-        known = {result.ask for result in found.results}
-        left = tuple(ask for ask in work.wanted(found.scenario) if ask not in known)
+        known = {result.case for result in found.results}
+        left = tuple(case for case in work.wanted(found.scenario) if case not in known)
         return Work(work.source, left, method_files=work.method_files) if left else None
 
     def keep(self, outcome: Outcome) -> None:
@@ -70,14 +70,14 @@ class Store:
         if outcome.failure:
             return
         before = self._load(outcome.source)
-        known = {r.ask: r for r in (before.results if before else ())}
-        known |= {r.ask: r for r in outcome.results}
+        known = {r.case: r for r in (before.results if before else ())}
+        known |= {r.case: r for r in outcome.results}
         whole = replace(outcome, results=tuple(known.values()))
         path = self._path(outcome.source)
         content = asdict(whole)
         content["source"] = _as_json(outcome.source)
         for written, result in zip(content["results"], whole.results, strict=True):
-            written["ask"]["parameters"] = to_nested(result.ask.parameters)
+            written["case"]["parameters"] = to_nested(result.case.parameters)
         # Written beside and renamed: whoever stops in between leaves the old file or the new one.
         draft = path.with_suffix(".draft")
         try:
@@ -96,10 +96,10 @@ class Store:
             content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
             results = tuple(
                 Result(
-                    Ask(from_nested(r["ask"]["parameters"]), r["ask"]["resting"]),
+                    EvaluationCase(from_nested(r["case"]["parameters"]), r["case"]["resting"]),
                     r["metrics"],
                     r["seconds"],
-                    r["why"],
+                    r["diagnosis"],
                 )
                 for r in content["results"]
             )

@@ -14,14 +14,14 @@ class Column:
         title: for people.
         form: format of its numbers, such as ".3f"; "" for text.
         group: title that it shares with its neighbours, "" for none.
-        theirs: whether its numbers are the paper's and not ours.
+        from_paper: whether its numbers are the paper's and not ours.
     """
 
     key: str
     title: str
     form: str = ""
     group: str = ""
-    theirs: bool = False
+    from_paper: bool = False
 
     @property
     def full_title(self) -> str:

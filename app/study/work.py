@@ -11,10 +11,10 @@ from time import thread_time
 
 from threadpoolctl import threadpool_limits
 
-from app.analysis.evaluation import Ask, Evaluation, evaluate_all
+from app.analysis.evaluation import Evaluation, EvaluationCase, evaluate_all
 from app.analysis.notes import notes
 from app.errors import UserError
-from app.study.diagnosis import what_went_wrong, why_no_flow
+from app.study.diagnosis import diagnose_missing_flow, diagnose_wrong_alignment
 from app.study.software import software_digest
 from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
@@ -81,21 +81,21 @@ class Work:
 
     Attributes:
         source: the recording.
-        asks: for every recording.
+        cases: for every recording.
         sweep: parameters that are tried where the recording shows the swept scenario.
         method_files: FILE.py:NAME of methods that are not registered by themselves.
     """
 
     source: Source
-    asks: tuple[Ask, ...]
+    cases: tuple[EvaluationCase, ...]
     sweep: tuple[Parameters, ...] = ()
     method_files: tuple[str, ...] = ()
 
-    def wanted(self, scenario: str | None) -> tuple[Ask, ...]:
+    def wanted(self, scenario: str | None) -> tuple[EvaluationCase, ...]:
         """What a recording of a scenario is evaluated with, each set of parameters once."""
-        asked = {ask.parameters for ask in self.asks}
+        asked = {case.parameters for case in self.cases}
         sweep = self.sweep if scenario == SWEPT_SCENARIO else ()
-        return (*self.asks, *(Ask(p, resting=False) for p in sweep if p not in asked))
+        return (*self.cases, *(EvaluationCase(p, resting=False) for p in sweep if p not in asked))
 
 
 @dataclass(frozen=True)
@@ -103,17 +103,17 @@ class Result:
     """What came of one set of parameters.
 
     Attributes:
-        ask: that is answered.
+        case: that is answered.
         metrics: {field of `Metrics`: its value, None where undefined}; None without truth.
         seconds: of one core, that it took.
         why: in a sentence, where no point got a flow what became of the moving ones, and where
             flow of moving points is far off what went wrong.
     """
 
-    ask: Ask
+    case: EvaluationCase
     metrics: dict[str, float | None] | None
     seconds: float
-    why: str | None = None
+    diagnosis: str | None = None
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ class Outcome:
         noise: name of the noise model, None where it was not simulated.
         frames: in the recording.
         seconds: of one core, that making or opening it took.
-        results: one for each ask.
+        results: one for each case.
         warnings: sentences about the recording.
         failure: why there are no results, in a sentence.
     """
@@ -145,12 +145,12 @@ class Outcome:
     failure: str | None = None
 
 
-def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
+def run_work(work: Work, software: str, scratch: Path | None = None) -> Outcome:
     """Do a unit of work, here and now.
 
     Args:
         work: the unit.
-        software: `software_digest` of whoever asks: a cluster may have another version.
+        software: `software_digest` of whoever cases: a cluster may have another version.
         scratch: folder for the simulated file, the system's own where None.
     """
     if software != software_digest(work.method_files):
@@ -212,25 +212,25 @@ def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
             trial=made.trial,
             noise=made.noise.partition(":")[0],
         )
-    asks = work.wanted(outcome.scenario)
-    evaluations = evaluate_all(recording, asks)
-    results = tuple(_result(recording, *each) for each in zip(asks, evaluations, strict=True))
+    cases = work.wanted(outcome.scenario)
+    evaluations = evaluate_all(recording, cases)
+    results = tuple(_result(recording, *each) for each in zip(cases, evaluations, strict=True))
     # After the evaluation: some warnings come up only when frames are read.
     return replace(outcome, results=results, warnings=tuple(notes(recording)))
 
 
-def _result(recording: Recording, ask: Ask, evaluation: Evaluation) -> Result:
+def _result(recording: Recording, case: EvaluationCase, evaluation: Evaluation) -> Result:
     metrics = evaluation.metrics
     if metrics is None:
-        return Result(ask, None, evaluation.seconds)
+        return Result(case, None, evaluation.seconds)
     begin = thread_time()
     values = {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
     why = None
     if not metrics.points_with_flow:
-        why = why_no_flow(recording, ask.parameters)
-    elif ask.resting and _is_far_off(metrics, recording):
-        why = what_went_wrong(recording, ask.parameters)
-    return Result(ask, values, evaluation.seconds + thread_time() - begin, why)
+        why = diagnose_missing_flow(recording, case.parameters)
+    elif case.resting and _is_far_off(metrics, recording):
+        why = diagnose_wrong_alignment(recording, case.parameters)
+    return Result(case, values, evaluation.seconds + thread_time() - begin, why)
 
 
 def _is_far_off(metrics: Metrics, recording: Recording) -> bool:

@@ -94,7 +94,7 @@ def test_detection_at_small_n_is_said():
 
 
 def test_what_could_not_be_computed_is_said_with_its_reason():
-    rows = [made(n=10, why=WHY), made(n=8, metrics=good(6.0, 0.03))]
+    rows = [made(n=10, diagnosis=WHY), made(n=8, metrics=good(6.0, 0.03))]
     text = said(*rows, methods=("paper",), sweep=(8, 10))
     assert "could not be computed at n = 10 and 0.30 m/s: 7 pairs count" in text
     assert "the object goes 0.20 m" in text
@@ -115,7 +115,11 @@ def test_a_trial_that_decides_its_cell_is_named():
     text = said(*rows, made(trial=4, metrics=good(29.0, 0.29)))
     assert "at 0.30 m/s: trial 4 alone has 29.0 deg and 0.290 m/s" in text
     assert "median of the trials is 6.0 deg and 0.030 m/s" in text
-    wrong = replace(made(trial=4, metrics=good(29.0, 0.29)), why="In 3 of 6 pairs it went wrong.")
+    wrong = replace(
+        made(trial=4, metrics=good(29.0, 0.29)), diagnosis="In 3 of 6 pairs it went wrong."
+    )
     assert "decides mean and std of its cell. In 3 of 6 pairs it went wrong." in said(*rows, wrong)
-    near = replace(made(trial=4, metrics=good(9.0, 0.08)), why="In 1 of 6 pairs it went wrong.")
+    near = replace(
+        made(trial=4, metrics=good(9.0, 0.08)), diagnosis="In 1 of 6 pairs it went wrong."
+    )
     assert "trial 4 has 9.0 deg and 0.080 m/s. In 1 of 6 pairs" in said(*rows, near)
