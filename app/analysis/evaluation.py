@@ -16,12 +16,12 @@ from recordings import Recording, RecordingError
 
 @dataclass(frozen=True)
 class EvaluationCase:
-    """Parameters to evaluate a recording with.
+    """One set of parameters to evaluate a recording with.
 
     Attributes:
         parameters: of the estimates, method included.
-        resting: whether pairs that do not count are estimated, too. Only `false_flow` needs them,
-            and is NaN without; where the object rests for long, the rest is there sooner.
+        resting: whether pairs that do not count are estimated too. Only `false_flow` needs them,
+            and is NaN without them; leaving them out saves time where the object rests long.
     """
 
     parameters: Parameters
@@ -33,8 +33,8 @@ class Evaluation:
     """Errors with one set of parameters.
 
     Attributes:
-        metrics: pooled over the recording; None where it has no truth.
-        seconds: of one core; stages that several methods share count for the first of them.
+        metrics: pooled over the recording, None without truth.
+        seconds: CPU time of one core; stages shared by several cases count for the first.
     """
 
     metrics: Metrics | None
@@ -43,7 +43,7 @@ class Evaluation:
 
 @dataclass
 class _Running:
-    """An evaluation under way."""
+    """State of an evaluation that is running."""
 
     case: EvaluationCase
     estimator: PairEstimator
@@ -52,7 +52,7 @@ class _Running:
 
 
 def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
-    """Estimate every pair whose truth is known and pool the errors; None where there is no truth.
+    """Estimate every pair with truth and pool the errors; None for a recording without truth.
 
     Raises:
         RecordingError: the file is broken at a pair that counts.
@@ -61,12 +61,12 @@ def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
 
 
 def evaluate_all(recording: Recording, cases: Sequence[EvaluationCase]) -> list[Evaluation]:
-    """Evaluate several sets of parameters; a pair's stages that they share are computed once.
+    """Evaluate several cases; stages of a pair that they share are computed once.
 
-    Pairs that do not count are left out where the file is broken at them.
+    Broken frames are skipped in pairs that do not count.
 
     Args:
-        recording: what is estimated.
+        recording: to evaluate.
         cases: in any order.
 
     Returns:
@@ -85,7 +85,7 @@ def evaluate_all(recording: Recording, cases: Sequence[EvaluationCase]) -> list[
 
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
-    """The pairs (k-n, k) at both of whose frames the object moves."""
+    """Pairs (k-n, k) that count: the object moves at both frames."""
     moving = [moves(recording, k) for k in range(len(recording))]
     for k in range(n, len(recording)):
         if moving[k - n] and moving[k]:
@@ -93,20 +93,20 @@ def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
 
 
 def moves(recording: Recording, k: int) -> bool:
-    """Whether the truth says that the object moves at frame `k`."""
+    """Whether the object truly moves at frame `k`."""
     velocity = recording.truth(k)
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
 
 
 def _window_settings(case: EvaluationCase) -> tuple[int, float]:
-    """Settings that decide which windows are looked at."""
+    """Parameters that determine the windows of a recording."""
     return case.parameters.n, case.parameters.max_range
 
 
 def _evaluate_together(
     recording: Recording, cases: Sequence[EvaluationCase]
 ) -> dict[EvaluationCase, Evaluation]:
-    """Evaluate sets of parameters that look at the same windows, each of which is made once."""
+    """Evaluate cases with equal windows, each of which is loaded once."""
     parameters = cases[0].parameters
     windows = _LastPrepared(recording, parameters)
     running = [_Running(case, PairEstimator(case.parameters)) for case in cases]
@@ -118,7 +118,7 @@ def _evaluate_together(
             try:
                 _include(run, windows, k, counts=k in counting)
             except RecordingError:
-                # A frame that is broken while nothing moves does not cost the errors.
+                # A frame broken while nothing moves does not affect the errors.
                 if k in counting:
                     raise
             run.seconds += thread_time() - begin
@@ -142,7 +142,7 @@ def _finished(run: _Running) -> Evaluation:
 
 
 class _LastPrepared:
-    """The pairs of a recording; the one that was asked for last is kept."""
+    """Pairs of a recording, with a cache of the last one."""
 
     def __init__(self, recording: Recording, parameters: Parameters) -> None:
         self._recording, self._parameters = recording, parameters

@@ -1,4 +1,4 @@
-"""A picture of the scene as a PNG file, with no one at a browser."""
+"""Picture of the scene as a PNG file, rendered without a user's browser."""
 
 import threading
 import time
@@ -21,19 +21,19 @@ from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from estimator import Parameters
 
-_TIMEOUT = 120.0  # seconds until a picture must be there
+_TIMEOUT = 120.0  # seconds until a picture must have been rendered
 
 
 @dataclass(frozen=True)
 class PictureSettings:
-    """What a picture takes in.
+    """Size, views and background of a picture.
 
     Attributes:
         width: pixels of each view.
         height: pixels.
-        views: where the camera stands, of `VIEWS`; they stand side by side.
-        transparent: whether there is no background.
-        legend: whether it says what the colours mean.
+        views: names of `VIEWS`, placed side by side.
+        transparent: whether the background is transparent.
+        legend: whether a legend is drawn.
     """
 
     width: int
@@ -48,19 +48,19 @@ def picture(
     pair: Pair,
     parameters: Parameters,
     settings: ViewSettings,
-    framing: PictureSettings,
+    layout: PictureSettings,
 ) -> bytes:
-    """PNG of a pair as the app draws it; what it shows is in the file's text.
+    """Render a pair as PNG, as the app draws it, with its caption as PNG text.
 
     Args:
         opened: the recording.
         pair: of one of its frames, estimated.
         parameters: of the estimate.
         settings: of the drawing.
-        framing: of the picture.
+        layout: of the picture.
 
     Raises:
-        InputError: there is no Chromium, or it gives no picture.
+        InputError: Chromium is missing or returns no picture.
     """
     server = GuardedServer("127.0.0.1", 0)
     try:
@@ -73,8 +73,8 @@ def picture(
             arrived.set()
 
         address = f"http://127.0.0.1:{server.get_port()}"
-        # The size of points follows the window, which is why it is as large as the picture.
-        with headless_page(address, framing.width, framing.height):
+        # The page sizes points for its window, which is therefore as large as the picture.
+        with headless_page(address, layout.width, layout.height):
             if not arrived.wait(_TIMEOUT):
                 raise InputError(f"Chromium did not show the scene within {_TIMEOUT:.0f} s.")
             client = clients[0]
@@ -83,13 +83,13 @@ def picture(
                 scene.open(opened.recording)
                 scene.change(settings)
                 scene.show(pair)
-                scene.place_camera(pair, framing.views[0], framing.width / framing.height)
+                scene.place_camera(pair, layout.views[0], layout.width / layout.height)
             renderer = SceneRenderer(client, scene)
-            taken = [_settled(renderer, pair, view, framing) for view in framing.views]
-            legend = scene.legend if framing.legend else None
+            taken = [_settled(renderer, pair, view, layout) for view in layout.views]
+            legend = scene.legend if layout.legend else None
     finally:
         server.stop()
-    background = None if framing.transparent else theme.background(settings.dark)
+    background = None if layout.transparent else theme.background(settings.dark)
     legends = [legend] + [None] * len(taken)
     pictures = [
         composed(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
@@ -98,17 +98,17 @@ def picture(
 
 
 def _settled(
-    renderer: SceneRenderer, pair: Pair, view: str, framing: PictureSettings
+    renderer: SceneRenderer, pair: Pair, view: str, layout: PictureSettings
 ) -> NDArray[np.uint8]:
-    """The picture (H, W, 4), once it does not change any more."""
+    """Render until two pictures (H, W, 4) in a row are equal."""
     end = time.monotonic() + _TIMEOUT
     before: NDArray[np.uint8] | None = None
     while time.monotonic() < end:
         try:
-            pixels = renderer.render(pair, view, framing.width, framing.height)
+            pixels = renderer.render(pair, view, layout.width, layout.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
-                f"Chromium gave no picture of {framing.width} x {framing.height} ({error}); "
+                f"Chromium gave no picture of {layout.width} x {layout.height} ({error}); "
                 "try a smaller --size."
             ) from error
         if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):

@@ -25,7 +25,7 @@ from app.session.links import SavedSession
 from app.session.opening import Opening
 from app.session.outbox import Message, Notice
 from app.session.presets import PresetUse
-from app.session.snapshot import Snapshot, Sought, Status
+from app.session.snapshot import Snapshot, Status, TimeSeek
 from app.session.tasks import Tasks
 from app.session.tuning import Tuning
 from estimator import Parameters
@@ -50,7 +50,7 @@ class Workbench:
         opened: the recording, None while none is open.
         frame: k.
         clock: of the playback.
-        sought: the last time that a person typed, None where none was.
+        time_seek: the last time that a person typed, None where none was.
         tuning: the parameters.
         settings: of the drawing; `change_view` changes them.
         scene: in the client's browser.
@@ -81,7 +81,7 @@ class Workbench:
         self.opened: Opened | None = None
         self.clock = PlaybackClock([0.0])
         self.frame = 0
-        self.sought: Sought | None = None
+        self.time_seek: TimeSeek | None = None
         self.scene = Scene(client, settings)
         self.framing = Framing(client, self.scene)
         self.renderer = SceneRenderer(client, self.scene)
@@ -103,7 +103,7 @@ class Workbench:
         opened = self.opening.try_next()
         if opened is not None:
             self._begin(opened)
-        self.opening.complain()
+        self.opening.raise_failure()
 
     def draw(self) -> None:
         """Bring the scene up to date, with whatever frame is due by now."""
@@ -216,7 +216,7 @@ class Workbench:
             playback=self.clock.playback,
             timeline=self.timeline.of(self.opened, self.tuning.parameters),
             seeking=seeking,
-            sought=self.sought,
+            time_seek=self.time_seek,
             survey=self.survey.survey,
             survey_revision=self.survey.revision,
             **self._status(),
@@ -236,7 +236,7 @@ class Workbench:
         recording = opened.recording
         self.clock = PlaybackClock(recording.stamps, like=self.clock.playback)
         self.frame = first_frame_with_flow(opened, self.tuning.parameters, self.estimates)
-        self.sought = None
+        self.time_seek = None
         self._selection.drop()
         with self._client.atomic():
             self.scene.open(recording)
@@ -246,7 +246,7 @@ class Workbench:
         ]
 
     def _leave(self, opened: Opened) -> None:
-        self.survey.leave()
+        self.survey.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:
