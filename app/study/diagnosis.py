@@ -1,4 +1,4 @@
-"""Why nothing got a flow, and what went wrong where errors are large."""
+"""Diagnosis of recordings without flow and of large errors."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -14,13 +14,14 @@ from estimator import MOVING_SPEED, Label, Parameters, SceneFlow
 from recordings import Recording
 
 _WRONG = 0.5
-"""Share of their true way that a cluster's points are off by where its alignment is wrong."""
+"""Displacement error, as a share of the true displacement, above which an alignment is wrong."""
 
 
 def diagnose_missing_flow(recording: Recording, parameters: Parameters) -> str | None:
-    """What became of the points that truly move, in the middle one of the pairs that count.
+    """Explain the missing flow of truly moving points, for the middle of the pairs that count.
 
-    None where no pair counts, or the truth of points is not known, or none of them moves.
+    Returns:
+        A sentence; None if no pair counts, or without truly moving points.
     """
     pairs = list(counting_pairs(recording, parameters.n))
     if not pairs:
@@ -41,9 +42,10 @@ def diagnose_missing_flow(recording: Recording, parameters: Parameters) -> str |
 
 
 def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> str | None:
-    """Fitness and displacement of the moving clusters that ICP aligned wrongly.
+    """Report fitness and displacement of the moving clusters that ICP aligned wrongly.
 
-    None where there is none, or the truth of points is not known.
+    Returns:
+        A sentence; None without such clusters, or without truth per point.
     """
     found = wrong = 0
     fitness: list[float] = []
@@ -72,13 +74,13 @@ def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> st
 def _misaligned(
     flow: SceneFlow, points: NDArray[np.float64], interval: float
 ) -> Iterator[tuple[float, float, float]]:
-    """(fitness, mean displacement m, true way m) of clusters that move, and wrongly."""
+    """(fitness, mean displacement m, true displacement m) of wrongly aligned moving clusters."""
     for result in flow.clusters:
         if result.label != Label.MOVING:
             continue
         true = points[result.remaining]
         moving = np.linalg.norm(true, axis=1) > MOVING_SPEED
-        if moving.mean() <= 0.5:  # what rests and was flagged is another error
+        if moving.mean() <= 0.5:  # resting points labelled Moving are another error
             continue
         off, way = (
             float(np.linalg.norm(velocity[moving], axis=1).mean()) * interval

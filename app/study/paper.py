@@ -1,4 +1,4 @@
-"""The paper's numbers, which stand beside ours."""
+"""The paper's published numbers, and its names of experiments."""
 
 import tomllib
 from dataclasses import dataclass
@@ -12,9 +12,9 @@ LABELS = {
     "sideways": "x-axis",
     "robot_moving": "Robot with ToF moving",
 }
-"""{scenario: how the paper's tables call it}."""
+"""{scenario: its name in the paper's tables}."""
 FRAME = 1 / 15
-"""Seconds from frame to frame."""
+"""Frame period, seconds."""
 
 
 @dataclass(frozen=True)
@@ -36,10 +36,10 @@ class PaperRow:
 
 @dataclass(frozen=True)
 class PaperNumbers:
-    """What the paper prints.
+    """Tables I and II of the paper.
 
     Attributes:
-        source: where it is printed.
+        source: citation.
         rows: {(scenario, method, m/s): its row}.
     """
 
@@ -49,7 +49,7 @@ class PaperNumbers:
 
 @cache
 def paper_numbers() -> PaperNumbers:
-    """Read the data file."""
+    """Load the paper's numbers from the data file."""
     content = tomllib.loads(files("app.study").joinpath("paper_numbers.toml").read_text("utf-8"))
     rows = {
         (e["scenario"], e["method"], speed): PaperRow(
@@ -62,10 +62,10 @@ def paper_numbers() -> PaperNumbers:
 
 
 def method_label(method: str) -> str:
-    """How tables and figures call a method."""
+    """Name of a method in tables and figures."""
     return find_method(method).label
 
 
 def experiment_label(scenario: str, method: str) -> str:
-    """How tables call an experiment."""
+    """Name of an experiment in tables."""
     return f"{LABELS.get(scenario, scenario)} ({method_label(method)})"
