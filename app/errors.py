@@ -1,4 +1,4 @@
-"""What a person did wrong, or gave us, in one sentence each."""
+"""Errors that are reported to the user in one sentence, without a traceback."""
 
 from estimator import CloudError, ParameterError
 from recordings import RecordingError
@@ -10,4 +10,4 @@ class InputError(Exception):
 
 
 UserError = (InputError, ParameterError, CloudError, RecordingError, RigError, RobotError)
-"""Everything whose text is made for a person: shown as it is, without a traceback."""
+"""Errors whose text is written for the user and shown as it is."""

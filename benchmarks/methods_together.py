@@ -8,7 +8,7 @@ import sys
 
 from threadpoolctl import threadpool_limits
 
-from app.analysis.evaluation import Ask, evaluate_all
+from app.analysis.evaluation import EvaluationCase, evaluate_all
 from estimator import Parameters
 from recordings import open_recording, sample_paths
 
@@ -16,15 +16,15 @@ from recordings import open_recording, sample_paths
 def main() -> None:
     """Print seconds of one core for each sample and their ratio, measured in this run."""
     methods = sys.argv[1:] or ["paper", "baseline"]
-    asks = [Ask(Parameters(method=method)) for method in methods]
+    cases = [EvaluationCase(Parameters(method=method)) for method in methods]
     print(f"{'recording':24}  {'apart':>8}  {'together':>8}  ratio")
     sums = [0.0, 0.0]
     with threadpool_limits(1):
         for path in sample_paths():
             with open_recording(path) as recording:
-                evaluate_all(recording, asks[:1])  # frames are decoded, packages loaded
-                apart = [evaluate_all(recording, [ask])[0] for ask in asks]
-                together = evaluate_all(recording, asks)
+                evaluate_all(recording, cases[:1])  # frames are decoded, packages loaded
+                apart = [evaluate_all(recording, [case])[0] for case in cases]
+                together = evaluate_all(recording, cases)
             # repr, since nan is not equal to itself.
             assert repr([e.metrics for e in apart]) == repr([e.metrics for e in together])
             seconds = [sum(e.seconds for e in found) for found in (apart, together)]

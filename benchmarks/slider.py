@@ -38,7 +38,7 @@ def measure(*, plots: bool) -> list[float]:
     """Milliseconds of each event, all on values that nothing was computed for."""
     shared = Shared(Library(sample_paths(), open_recording), Estimates(), Reloads(), Parameters())
     if not plots:
-        setattr(shared.surveys, "ask", lambda *_: None)  # noqa: B010 (the type checker minds)
+        setattr(shared.surveys, "request", lambda *_: None)  # noqa: B010 (the type checker minds)
     with FakeClient.on_a_server() as client:
         session = Session(client, shared)
         _wait(lambda: "Moving" in client.text())

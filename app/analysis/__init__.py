@@ -1,4 +1,4 @@
-"""Recordings and parameters in; pairs, flows and numbers out."""
+"""Analysis of recordings: pairs, flows, metrics and timelines, cached for all sessions."""
 
 from app.analysis.pair_estimator import flows
 

@@ -1,4 +1,4 @@
-"""A bounded memory of things that are expensive to make, shared between sessions."""
+"""Bounded, thread-safe cache of values that are expensive to compute."""
 
 import threading
 from collections import OrderedDict
@@ -15,8 +15,8 @@ class _Slot(Generic[V]):
         self.value: V | None = None
 
 
-class Memory(Generic[K, V]):
-    """The `size` values that were asked for last; each is made once, also under many threads."""
+class Cache(Generic[K, V]):
+    """Cache of the `size` values used last; each is computed once, by one thread."""
 
     def __init__(self, size: int) -> None:
         self._size = size
@@ -27,25 +27,25 @@ class Memory(Generic[K, V]):
         return len(self._slots)
 
     def known(self, key: K) -> V | None:
-        """The value of `key` where it is remembered; nothing is made, and nobody is waited for."""
+        """The cached value of `key`, or None; never computes or waits."""
         with self._lock:
             slot = self._slots.get(key)
         return slot.value if slot else None
 
     def items(self) -> list[tuple[K, V]]:
-        """All keys and values that are remembered now."""
+        """All cached keys and values."""
         with self._lock:
             slots = list(self._slots.items())
         return [(key, slot.value) for key, slot in slots if slot.value is not None]
 
     def get(self, key: K, make: Callable[[], V]) -> V:
-        """The value of `key`; `make` makes it where it is not remembered, and may raise."""
+        """The value of `key`, computed by `make` unless cached; raises what `make` raises."""
         with self._lock:
             slot = self._slots.setdefault(key, _Slot())
             self._slots.move_to_end(key)
             while len(self._slots) > self._size:
                 self._slots.popitem(last=False)
-        # Whoever asks for a value that is being made waits for it; nobody else does.
+        # A lock per key: a value being computed delays only the threads that need it.
         with slot.lock:
             if slot.value is None:
                 slot.value = make()

@@ -11,17 +11,17 @@ from estimator import Parameters
 T = TypeVar("T")
 
 A, B = "A", "B"
-"""Names of two sets of parameters that are compared."""
+"""Names of the two sets of parameters."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """What a session knows of A and B beyond the parameters that are edited.
+    """Comparison of the edited parameters with a second set.
 
     Attributes:
         other: the parameters that are not edited.
         edited: A or B.
-        both: whether the flow of the other is drawn too, and estimated for it.
+        both: whether the flow of the other set is estimated and drawn too.
     """
 
     other: Parameters
@@ -29,28 +29,28 @@ class Comparison:
     both: bool = False
 
     def switched(self, edited: Parameters) -> "Comparison":
-        """The other one edited, instead of the one that is `edited` now."""
+        """The comparison with the sides swapped, given the parameters edited so far."""
         return Comparison(edited, B if self.edited == A else A, self.both)
 
     def drawn(self, edited: Parameters) -> dict[str, Parameters]:
-        """{A or B: its parameters} where the flow of both is drawn, else nothing."""
+        """{A or B: its parameters} where the flow of both is drawn, else empty."""
         of_a, of_b = self.in_order(edited, self.other)
         return {A: of_a, B: of_b} if self.both else {}
 
     def in_order(self, edited: T, other: T) -> tuple[T, T]:
-        """What belongs to A, and what belongs to B."""
+        """The values of the edited and the other side, as (of A, of B)."""
         return (edited, other) if self.edited == A else (other, edited)
 
 
 @dataclass(frozen=True)
-class Compared:
-    """One frame with the edited parameters, and with the other ones.
+class FrameEstimate:
+    """Pairs of one frame, with the edited and with the other parameters.
 
     Attributes:
         pair: with the edited parameters.
-        other: with the other ones, None unless its estimate is wanted or known.
-        second: the other pair where its flow is drawn too.
-        problem: what went wrong in an estimate; its pair has no flow then.
+        other: with the other ones, None unless it is drawn or already estimated.
+        second: the other pair if its flow is drawn too, else None.
+        problem: error of an estimate, whose pair then has no flow; None without one.
     """
 
     pair: Pair
@@ -59,28 +59,28 @@ class Compared:
     problem: Exception | None
 
 
-def compared(
+def estimate_frame(
     estimates: Estimates,
     opened: Opened,
     frame: int,
     parameters: Parameters,
     comparison: Comparison | None,
-) -> Compared:
-    """Estimate what is shown of a frame; what is not shown is looked up, not estimated."""
+) -> FrameEstimate:
+    """Estimate the pairs of a frame that are drawn; the other pair is only looked up."""
     pair, problem = _estimated(estimates, opened, frame, parameters)
     if comparison is None:
-        return Compared(pair, None, None, problem)
+        return FrameEstimate(pair, None, None, problem)
     if not comparison.both:
         known = estimates.known(opened, frame, comparison.other)
-        return Compared(pair, known, None, problem)
+        return FrameEstimate(pair, known, None, problem)
     other, failed = _estimated(estimates, opened, frame, comparison.other)
-    return Compared(pair, other, other, problem or failed)
+    return FrameEstimate(pair, other, other, problem or failed)
 
 
 def _estimated(
     estimates: Estimates, opened: Opened, frame: int, parameters: Parameters
 ) -> tuple[Pair, Exception | None]:
-    """A pair; without its flow where the estimator fails on it, and what went wrong."""
+    """The pair and None, or the pair without flow and the estimator's error."""
     try:
         return estimates.estimated(opened, frame, parameters), None
     except Exception as error:

@@ -1,19 +1,19 @@
-"""Pairs and their flow: computed once, remembered, and shared between sessions."""
+"""Cache of clouds, pairs and flows, shared by all sessions."""
 
 import numpy as np
 
-from app.analysis.cache import Memory
+from app.analysis.cache import Cache
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, PreparedPair, make_pair, window_of
-from app.analysis.timeline import Outline
+from app.analysis.timeline import RecordedTimeline
 from estimator import Parameters, Stages, estimate_scene_flow
 from recordings import Cloud
 
 
 def warm_up() -> None:
-    """Load what the first estimate needs, so that it need not wait for it."""
+    """Run a small estimate, so that the first real one does not wait for libraries to load."""
     steps = np.linspace(0.0, 0.1, 6)
     patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
     cloud = np.vstack([patch, patch + 2.0])
@@ -21,30 +21,30 @@ def warm_up() -> None:
 
 
 class Estimates:
-    """Clouds, pairs and flows, bounded in number, for all sessions.
+    """Computes clouds, pairs and flows on demand, and caches a bounded number of each.
 
     Args:
-        clouds: how many clouds are remembered.
-        pairs: of how many pairs the results are remembered that do not depend on the thresholds.
-        flows: how many estimates are remembered.
-        estimators: for how many sets of parameters a tracker's segments are remembered.
+        clouds: maximum number of cached clouds.
+        pairs: maximum number of pairs whose threshold-independent stages are cached.
+        flows: maximum number of cached estimates.
+        estimators: maximum number of parameter sets whose tracker segments are cached.
 
     Attributes:
-        foreground: says when an estimate is waited for.
+        foreground: estimates that a user waits for.
     """
 
     def __init__(
         self, clouds: int = 400, pairs: int = 200, flows: int = 400, estimators: int = 16
     ) -> None:
-        self._clouds: Memory[tuple, Cloud] = Memory(clouds)
-        self._prepared: Memory[tuple, tuple[Pair, Stages]] = Memory(pairs)
-        self._pairs: Memory[tuple, Pair] = Memory(flows)
-        self._estimators: Memory[tuple, PairEstimator] = Memory(estimators)
-        self._outlines: Memory[tuple, Outline] = Memory(16)
+        self._clouds: Cache[tuple, Cloud] = Cache(clouds)
+        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(pairs)
+        self._pairs: Cache[tuple, Pair] = Cache(flows)
+        self._estimators: Cache[tuple, PairEstimator] = Cache(estimators)
+        self._recorded_timelines: Cache[tuple, RecordedTimeline] = Cache(16)
         self.foreground = Foreground()
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
-        """The pair (k-n, k) without an estimate, its clouds taken from memory where they are.
+        """The pair (k-n, k) without its flow.
 
         Raises:
             RecordingError: the file is broken there.
@@ -64,23 +64,23 @@ class Estimates:
 
         return self._pairs.get((opened.key, k, parameters), make)
 
-    def estimated_ahead(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
-        """The same in the background: it is not counted as work in the foreground."""
+    def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+        """`estimated` for background work, which does not count as foreground."""
         return self._pairs.get(
             (opened.key, k, parameters), lambda: self._estimate(opened, k, parameters)
         )
 
     def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
-        """The pair (k-n, k) with its flow where it was estimated already."""
+        """The pair (k-n, k) with its flow if that is cached, else None."""
         return self._pairs.known((opened.key, k, parameters))
 
-    def outline(self, opened: Opened) -> Outline:
-        """The recording's own part of its timeline."""
-        return self._outlines.get(opened.key, lambda: Outline(opened.recording))
+    def recorded_timeline(self, opened: Opened) -> RecordedTimeline:
+        """The part of a recording's timeline that needs no estimate."""
+        return self._recorded_timelines.get(opened.key, lambda: RecordedTimeline(opened.recording))
 
-    def remembered(self, opened: Opened, parameters: Parameters) -> list[Pair]:
-        """All pairs of a recording that were estimated with these parameters, as far as known."""
-        # A recording may have many more frames than are remembered.
+    def cached(self, opened: Opened, parameters: Parameters) -> list[Pair]:
+        """All cached pairs of a recording with these parameters."""
+        # The cache is bounded, a recording's number of frames is not: search the cache.
         return [
             pair
             for (key, _, values), pair in self._pairs.items()
@@ -101,7 +101,7 @@ class Estimates:
             (opened.key, k, parameters.n, parameters.max_range),
             lambda: (make_pair(opened.recording, k, parameters, load), Stages()),
         )
-        # The window reads from the recording, which may be closed before it is forgotten here.
+        # Windows are not cached: they read from the recording, which may be closed by then.
         return PreparedPair(pair, window_of(pair, opened.recording, load, stages))
 
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:

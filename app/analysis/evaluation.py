@@ -15,13 +15,13 @@ from recordings import Recording, RecordingError
 
 
 @dataclass(frozen=True)
-class Ask:
-    """Parameters to evaluate a recording with.
+class EvaluationCase:
+    """One set of parameters to evaluate a recording with.
 
     Attributes:
         parameters: of the estimates, method included.
-        resting: whether pairs that do not count are estimated, too. Only `false_flow` needs them,
-            and is NaN without; where the object rests for long, the rest is there sooner.
+        resting: whether pairs that do not count are estimated too. Only `false_flow` needs them,
+            and is NaN without them; leaving them out saves time where the object rests long.
     """
 
     parameters: Parameters
@@ -33,8 +33,8 @@ class Evaluation:
     """Errors with one set of parameters.
 
     Attributes:
-        metrics: pooled over the recording; None where it has no truth.
-        seconds: of one core; stages that several methods share count for the first of them.
+        metrics: pooled over the recording, None without truth.
+        seconds: CPU time of one core; stages shared by several cases count for the first.
     """
 
     metrics: Metrics | None
@@ -43,49 +43,49 @@ class Evaluation:
 
 @dataclass
 class _Running:
-    """An evaluation under way."""
+    """State of an evaluation that is running."""
 
-    ask: Ask
+    case: EvaluationCase
     estimator: PairEstimator
     errors: PooledErrors = field(default_factory=PooledErrors)
     seconds: float = 0.0
 
 
 def evaluate(recording: Recording, parameters: Parameters) -> Metrics | None:
-    """Estimate every pair whose truth is known and pool the errors; None where there is no truth.
+    """Estimate every pair with truth and pool the errors; None for a recording without truth.
 
     Raises:
         RecordingError: the file is broken at a pair that counts.
     """
-    return evaluate_all(recording, [Ask(parameters)])[0].metrics
+    return evaluate_all(recording, [EvaluationCase(parameters)])[0].metrics
 
 
-def evaluate_all(recording: Recording, asks: Sequence[Ask]) -> list[Evaluation]:
-    """Evaluate several sets of parameters; a pair's stages that they share are computed once.
+def evaluate_all(recording: Recording, cases: Sequence[EvaluationCase]) -> list[Evaluation]:
+    """Evaluate several cases; stages of a pair that they share are computed once.
 
-    Pairs that do not count are left out where the file is broken at them.
+    Broken frames are skipped in pairs that do not count.
 
     Args:
-        recording: what is estimated.
-        asks: in any order.
+        recording: to evaluate.
+        cases: in any order.
 
     Returns:
-        An evaluation for each ask, in their order.
+        An evaluation for each case, in their order.
 
     Raises:
         RecordingError: the file is broken at a pair that counts.
     """
     if not recording.has_truth:
-        return [Evaluation(None, 0.0) for _ in asks]
-    found: dict[Ask, Evaluation] = {}
-    in_groups = sorted(asks, key=_window_settings)
+        return [Evaluation(None, 0.0) for _ in cases]
+    found: dict[EvaluationCase, Evaluation] = {}
+    in_groups = sorted(cases, key=_window_settings)
     for _, group in groupby(in_groups, key=_window_settings):
         found |= _evaluate_together(recording, list(dict.fromkeys(group)))
-    return [found[ask] for ask in asks]
+    return [found[case] for case in cases]
 
 
 def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
-    """The pairs (k-n, k) at both of whose frames the object moves."""
+    """Pairs (k-n, k) that count: the object moves at both frames."""
     moving = [moves(recording, k) for k in range(len(recording))]
     for k in range(n, len(recording)):
         if moving[k - n] and moving[k]:
@@ -93,34 +93,36 @@ def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
 
 
 def moves(recording: Recording, k: int) -> bool:
-    """Whether the truth says that the object moves at frame `k`."""
+    """Whether the object truly moves at frame `k`."""
     velocity = recording.truth(k)
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
 
 
-def _window_settings(ask: Ask) -> tuple[int, float]:
-    """Settings that decide which windows are looked at."""
-    return ask.parameters.n, ask.parameters.max_range
+def _window_settings(case: EvaluationCase) -> tuple[int, float]:
+    """Parameters that determine the windows of a recording."""
+    return case.parameters.n, case.parameters.max_range
 
 
-def _evaluate_together(recording: Recording, asks: Sequence[Ask]) -> dict[Ask, Evaluation]:
-    """Evaluate sets of parameters that look at the same windows, each of which is made once."""
-    parameters = asks[0].parameters
+def _evaluate_together(
+    recording: Recording, cases: Sequence[EvaluationCase]
+) -> dict[EvaluationCase, Evaluation]:
+    """Evaluate cases with equal windows, each of which is loaded once."""
+    parameters = cases[0].parameters
     windows = _LastPrepared(recording, parameters)
-    running = [_Running(ask, PairEstimator(ask.parameters)) for ask in asks]
+    running = [_Running(case, PairEstimator(case.parameters)) for case in cases]
     counting = {k for _, k in counting_pairs(recording, parameters.n)}
     for k in range(parameters.n, len(recording)):
-        wanted = [run for run in running if k in counting or run.ask.resting]
+        wanted = [run for run in running if k in counting or run.case.resting]
         for run in wanted:
             begin = thread_time()
             try:
                 _include(run, windows, k, counts=k in counting)
             except RecordingError:
-                # A frame that is broken while nothing moves does not cost the errors.
+                # A frame broken while nothing moves does not affect the errors.
                 if k in counting:
                     raise
             run.seconds += thread_time() - begin
-    return {run.ask: _finished(run) for run in running}
+    return {run.case: _finished(run) for run in running}
 
 
 def _include(run: _Running, windows: "_LastPrepared", k: int, *, counts: bool) -> None:
@@ -134,13 +136,13 @@ def _include(run: _Running, windows: "_LastPrepared", k: int, *, counts: bool) -
 
 def _finished(run: _Running) -> Evaluation:
     metrics = run.errors.metrics()
-    if not run.ask.resting:
+    if not run.case.resting:
         metrics = replace(metrics, false_flow=math.nan)
     return Evaluation(metrics, run.seconds)
 
 
 class _LastPrepared:
-    """The pairs of a recording; the one that was asked for last is kept."""
+    """Pairs of a recording, with a cache of the last one."""
 
     def __init__(self, recording: Recording, parameters: Parameters) -> None:
         self._recording, self._parameters = recording, parameters

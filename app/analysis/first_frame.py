@@ -1,4 +1,4 @@
-"""The frame that a recording opens at."""
+"""Choice of the frame that a recording opens at."""
 
 import time
 
@@ -10,20 +10,20 @@ from app.analysis.library import Opened
 from estimator import Parameters
 from recordings import Recording
 
-_TRIED = 9  # frames, at most
-_SECONDS = 1.5  # nobody likes to wait
-_ENOUGH = 20  # moving points that tell something
+_TRIED = 9  # frames at most
+_SECONDS = 1.5  # limit of the search, so that opening stays quick
+_ENOUGH = 20  # moving points at which the search ends
 
 
 def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Estimates) -> int:
-    """A frame with flow, as near to the middle of the motion as there is one among a few.
+    """Find a frame with flow near the middle of the motion, among a few candidates.
 
-    Where none of them has flow, the one in which most is seen.
+    If none of them has flow, the one with most points.
 
     Args:
         opened: the recording.
         parameters: of the estimate.
-        estimates: computes and remembers.
+        estimates: computes and caches flows.
     """
     tried = candidates(opened.recording, parameters.n)
     best, most, seen = tried[0], 0, 0
@@ -32,7 +32,7 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
         try:
             pair = estimates.estimated(opened, frame, parameters)
         except Exception:
-            continue  # what is wrong with a frame is told when it is shown
+            continue  # reported when the frame is shown
         moving = int(pair.flow.moving.sum()) if pair.flow else 0
         if (moving, len(pair.target.points)) > (most, seen):
             best, most, seen = frame, moving, len(pair.target.points)
@@ -42,9 +42,9 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
 
 
 def candidates(recording: Recording, n: int) -> list[int]:
-    """Frames to try, from the middle of the motion outwards.
+    """Frames to try, from the middle of the true motion outwards.
 
-    Where no motion is known, it may be anywhere.
+    Without truth, from the middle of the recording.
     """
     frames = [k for _, k in counting_pairs(recording, n)]
     frames = frames or list(range(min(n, len(recording) - 1), len(recording)))

@@ -1,4 +1,4 @@
-"""Who waits for what: work that nobody waits for stands back."""
+"""Priority of work that a user waits for over background work."""
 
 import threading
 import time
@@ -6,7 +6,7 @@ from types import TracebackType
 
 
 class Foreground:
-    """A context for work that a person waits for; others can wait until there is none."""
+    """Context for work that a user waits for; background threads pause while it runs."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
@@ -29,12 +29,12 @@ class Foreground:
             self._changed.notify_all()
 
     def wait_until_quiet(self, seconds: float, at_most: float = threading.TIMEOUT_MAX) -> None:
-        """Wait until nothing has run for some time.
+        """Wait until no foreground work has run for some time.
 
         Args:
-            seconds: for which nothing must have run.
-            at_most: seconds after which the wait ends all the same: a slider that is moved is
-                never quiet, nor is a recording that is played and too long to be remembered.
+            seconds: without foreground work that end the wait.
+            at_most: seconds after which the wait ends in any case, since dragging a slider, or
+                playing a recording longer than the cache, never pauses.
         """
         end = time.monotonic() + at_most
         with self._changed:

@@ -1,4 +1,4 @@
-"""The recordings that the app offers, and those that are open."""
+"""Recordings that the app lists, opened once and shared by sessions."""
 
 import threading
 from collections import Counter
@@ -12,7 +12,12 @@ from recordings import Recording
 
 @dataclass(frozen=True)
 class Entry:
-    """One recording of the list: `label` is what people read, unique in the list."""
+    """A listed recording.
+
+    Attributes:
+        label: shown to the user, unique in the list.
+        path: of the file.
+    """
 
     label: str
     path: Path
@@ -23,9 +28,9 @@ class Opened:
     """An open recording.
 
     Attributes:
-        entry: where it is in the list.
+        entry: its entry in the list.
         recording: safe to use from several threads.
-        key: the same wherever the file is the same, so that results outlive a closed file.
+        key: identity of the file's content, under which results stay cached after it is closed.
     """
 
     entry: Entry
@@ -41,14 +46,14 @@ class _Shared:
 
 
 class Library:
-    """Lists recordings and opens each of them once, for as long as anybody uses it.
+    """Lists recordings and keeps each open while a session uses it.
 
     Args:
         paths: files, and folders whose *.mcap files are listed.
         open_recording: opens the recording at a path.
 
     Raises:
-        InputError: a path that is not there.
+        InputError: a path does not exist.
     """
 
     def __init__(self, paths: Sequence[Path], open_recording: Callable[[Path], Recording]) -> None:
@@ -61,7 +66,7 @@ class Library:
         self._shared: dict[Entry, _Shared] = {}
 
     def listing(self) -> tuple[Entry, ...]:
-        """All recordings that are there now, in the order of the paths and of their names."""
+        """Recordings that exist now, in the order of the paths, then of the file names."""
         files: dict[Path, None] = {}
         for path in self.paths:
             files |= dict.fromkeys(sorted(path.glob("*.mcap")) if path.is_dir() else [path])
@@ -70,7 +75,7 @@ class Library:
         )
 
     def open(self, entry: Entry) -> Opened:
-        """Open a recording, or share it where it is open; `release` it afterwards.
+        """Open a recording, or share the open one; each call needs a `release`.
 
         Raises:
             RecordingError: it cannot be opened.
@@ -91,7 +96,7 @@ class Library:
             raise
 
     def release(self, entry: Entry) -> None:
-        """Give an opened recording back; the last one to do so closes it."""
+        """Release a recording; the last release closes it."""
         with self._lock:
             shared = self._shared[entry]
             shared.users -= 1
@@ -103,7 +108,7 @@ class Library:
 
 
 def _labels(files: Sequence[Path]) -> list[str]:
-    """Stems where they are unique, else with their folder, else the whole path."""
+    """File stems where unique, else folder and name, else the whole path."""
     labels = [path.stem for path in files]
     for longer in (lambda path: f"{path.parent.name}/{path.name}", str):
         count = Counter(labels)

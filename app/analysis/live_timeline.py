@@ -1,4 +1,4 @@
-"""Timeline of what one session shows, as far as it is known by now."""
+"""Timeline of a session's recording, refreshed while estimates arrive."""
 
 import time
 
@@ -9,15 +9,15 @@ from app.analysis.surveys import Surveys
 from app.analysis.timeline import Timeline
 from estimator import Parameters
 
-_AGE = 1.0  # seconds after which it is looked through again
+_AGE = 1.0  # seconds after which a timeline is rebuilt
 
 
 class LiveTimeline:
-    """Timeline that is looked through again once in a while: estimates come one by one.
+    """Timeline of one recording at a time, rebuilt at most once a second.
 
     Args:
-        estimates: that are known, of a bounded number of frames.
-        surveys: that are known, of all frames of a recording.
+        estimates: cache of a bounded number of frames.
+        surveys: cache of numbers of all frames.
     """
 
     def __init__(self, estimates: Estimates, surveys: Surveys) -> None:
@@ -27,23 +27,23 @@ class LiveTimeline:
         self._last: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
 
     def of(self, opened: Opened, parameters: Parameters) -> Timeline:
-        """The recording at a glance; where there is no truth, what is estimated says it."""
+        """The timeline of a recording; motion comes from the estimates if there is no truth."""
         wanted, now = (opened, parameters), time.monotonic()
         fresh = self._last is None or self._last[0] != wanted
         if fresh:
             self._survey = None
         if self._last is None or fresh or now > self._last[1] + _AGE:
-            # A survey that was found is held: many others may be asked for meanwhile.
+            # Held here, since the cache of surveys may drop it.
             self._survey = self._survey or self._surveys.known(opened, parameters)
             self._last = (wanted, now, self._look(opened, parameters))
         return self._last[2]
 
     def _look(self, opened: Opened, parameters: Parameters) -> Timeline:
-        outline, survey = self._estimates.outline(opened), self._survey
-        empty, moving = [False] * outline.count, [False] * outline.count
+        recorded, survey = self._estimates.recorded_timeline(opened), self._survey
+        empty, moving = [False] * recorded.count, [False] * recorded.count
         if survey is not None:
             empty, moving = survey.empty.tolist(), (survey.moving > 0).tolist()
-        for pair in self._estimates.remembered(opened, parameters):
+        for pair in self._estimates.cached(opened, parameters):
             empty[pair.frame] = len(pair.target.points) == 0
             moving[pair.frame] = pair.anything_moves
-        return outline.with_estimates(empty, moving)
+        return recorded.with_estimates(empty, moving)

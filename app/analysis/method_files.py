@@ -1,4 +1,4 @@
-"""Methods in files of a user's own, named as FILE.py:NAME on the command line."""
+"""Methods loaded from a user's own files, named FILE.py:NAME on the command line."""
 
 import hashlib
 import importlib.util
@@ -16,18 +16,18 @@ _loaded: dict[str, Method] = {}
 
 
 def is_method_file(text: str) -> bool:
-    """Whether a text names a method in a file, and not one that is registered."""
+    """Whether a text has the form FILE.py:NAME, unlike names of registered methods."""
     return _SEPARATOR in text
 
 
 def load_method(text: str) -> str:
-    """Register the method that FILE.py:NAME names, and return the name it is registered under.
+    """Load and register the method FILE.py:NAME, and return its registered name.
 
-    NAME is a `Method`, or a function (window, parameters) -> SceneFlow, which is registered under
-    the file's name and its own. The file is run: only a command line may name one.
+    NAME is a `Method`, or a function (window, parameters) -> SceneFlow, registered as FILE-NAME.
+    The file is executed, so the text must come from the command line, never from a browser.
 
     Raises:
-        InputError: there is no such file or name in it, or it cannot be registered.
+        InputError: the file or the name in it does not exist, or it cannot be registered.
     """
     path, name = located(text)
     key = f"{path}:{name}"
@@ -43,13 +43,13 @@ def load_method(text: str) -> str:
 
 
 def method_files(names: Iterable[str]) -> tuple[str, ...]:
-    """FILE.py:NAME, with an absolute path, of those of some methods that came from files."""
+    """FILE.py:NAME, with absolute paths, of those methods in `names` that came from files."""
     wanted = set(names)
     return tuple(text for text, method in _loaded.items() if method.name in wanted)
 
 
 def located(text: str) -> tuple[Path, str]:
-    """The absolute path of the file and the name in it that FILE.py:NAME names.
+    """Absolute path of the file, and the name in it, of FILE.py:NAME.
 
     Raises:
         InputError: there is no such file.
@@ -62,13 +62,13 @@ def located(text: str) -> tuple[Path, str]:
 
 
 def content_digest(texts: Iterable[str]) -> str:
-    """A digest of what is in the files of some methods, "" of none."""
+    """SHA-256 of the contents of these method files, "" for none."""
     contents = [located(text)[0].read_bytes() for text in texts]
     return hashlib.sha256(b"\0".join(contents)).hexdigest() if contents else ""
 
 
 def _module(path: Path) -> ModuleType:
-    # The same name in every process, so that objects of its classes can be sent to workers.
+    # Equal in every process, so that pickled objects of its classes reach workers.
     name = f"tofscope_method_{hashlib.sha256(str(path).encode()).hexdigest()[:16]}"
     if name in sys.modules:
         return sys.modules[name]

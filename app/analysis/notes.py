@@ -1,10 +1,10 @@
-"""What to know of a recording before trusting what was computed from it."""
+"""Warnings about a recording's data, for readers of its results."""
 
 from recordings import Recording
 
 
 def notes(recording: Recording) -> list[str]:
-    """Sentences; some are found out only when frames are read."""
+    """Warnings as sentences; some arise only once frames are read."""
     said = list(recording.warnings)
     if recording.duplicates:
         said.append(f"Readings that came again, {recording.duplicates} of them, are left out.")

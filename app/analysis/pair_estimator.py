@@ -1,4 +1,4 @@
-"""Flow of every pair of a recording, whatever the method: pure ones and trackers."""
+"""Flow of any pair of a recording, by pure methods and by trackers."""
 
 import threading
 import time
@@ -11,7 +11,7 @@ from estimator import Parameters, SceneFlow, Tracker, estimate, find_method
 from recordings import Recording
 
 SEGMENT = 64
-"""Frames of a segment; a tracker begins anew for each, its warm-up before it."""
+"""Frames of a segment. A tracker restarts for each segment, its warm-up before the first frame."""
 _KEPT_SEGMENTS = 4
 
 Prepare = Callable[[int], PreparedPair]
@@ -20,8 +20,8 @@ Prepare = Callable[[int], PreparedPair]
 class PairEstimator:
     """Estimates pairs of one recording with one set of parameters, in any order, from any thread.
 
-    A pair's flow is the same whatever was asked for before it: a pure method sees its window
-    alone, and a tracker is run over fixed segments, each begun its warm-up early.
+    A pair's flow does not depend on the order of calls: a pure method sees its window alone, and
+    a tracker runs over fixed segments, starting `warm_up` frames before each.
 
     Args:
         parameters: of the estimates, method included.
@@ -34,11 +34,11 @@ class PairEstimator:
         self._segments: OrderedDict[int, _Segment] = OrderedDict()
 
     def pair(self, k: int, prepare: Prepare) -> Pair:
-        """The pair (k-n, k) with its flow, without one where k-n is before the start.
+        """The pair (k-n, k) with its flow; without one if frame k-n is before the start.
 
         Args:
             k: the target's frame.
-            prepare: gives the pair of a frame before its estimate.
+            prepare: loads the pair of a frame.
 
         Raises:
             RecordingError: the file is broken there.
@@ -69,7 +69,7 @@ class PairEstimator:
 
 @dataclass
 class _Segment:
-    """A tracker's way through a segment, as far as it was asked for."""
+    """Results of a tracker over a segment, computed up to the last requested frame."""
 
     tracker: Tracker
     next: int
@@ -77,7 +77,7 @@ class _Segment:
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def at(self, k: int, prepare: Prepare) -> tuple[SceneFlow, float]:
-        """Flow of frame `k` and the seconds that its step took; what went wrong is raised again."""
+        """Flow of frame `k` and the seconds of its step; an error of the step is raised again."""
         with self.lock:
             while self.next <= k:
                 self.found[self.next] = self._step(self.next, prepare)
@@ -88,7 +88,7 @@ class _Segment:
         return found
 
     def _step(self, k: int, prepare: Prepare) -> tuple[SceneFlow, float] | Exception:
-        # A frame that is broken, or fails the tracker, does not cost those after it their flow.
+        # Errors are kept per frame: a broken frame does not end the segment.
         try:
             window = prepare(k).window
             assert window is not None
@@ -100,14 +100,14 @@ class _Segment:
 
 
 def flows(recording: Recording, parameters: Parameters) -> Iterator[tuple[int, SceneFlow]]:
-    """Estimate every pair (k-n, k) of a recording in order, as the page shows it.
+    """Estimate every pair (k-n, k) of a recording in order, with the same results as the page.
 
     Args:
-        recording: what is estimated.
-        parameters: of the estimates, method included; trackers, too.
+        recording: to estimate.
+        parameters: of the estimates, method included.
 
     Yields:
-        k and the flow of the source's points.
+        k and the flow of the source points.
 
     Raises:
         RecordingError: the file is broken at a frame.

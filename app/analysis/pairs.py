@@ -1,6 +1,6 @@
-"""Pairs of a recording: the two clouds, the frames between, the interval and the truth.
+"""Pairs of a recording: two clouds, the frames between, the interval and the truth.
 
-Everything that estimates on a recording takes its pairs from here.
+Page, evaluation and study all take their pairs from here.
 """
 
 from collections.abc import Callable
@@ -26,7 +26,7 @@ from robot_assets import Transform
 
 @dataclass(frozen=True)
 class Pair:
-    """The pair (k-n, k) of a frame, and its flow where that was estimated.
+    """The pair (k-n, k) of frame k, with its flow once estimated.
 
     Attributes:
         frame: k.
@@ -34,9 +34,9 @@ class Pair:
         source: P_{k-n}, None where frame k-n is before the start.
         interval: seconds between the two stamps, NaN without a source.
         link_poses: {link: T_fixed_link (4, 4)} at frame k.
-        truth: over the interval, None where it is not known.
-        flow: None without a source, or where nothing was estimated yet.
-        milliseconds: how long the estimate took, NaN without one.
+        truth: over the interval, None where unknown.
+        flow: None without a source or before the estimate.
+        milliseconds: duration of the estimate, NaN without one.
         n: frames between source and target, 0 without a source.
     """
 
@@ -60,7 +60,7 @@ class Pair:
 
     @property
     def truly_moving(self) -> NDArray[np.bool_]:
-        """(N,) whether a source point truly moves; all of them where only the object is known."""
+        """Mask (N,) of truly moving source points; all True without a truth per point."""
         size = len(self.source.points) if self.source else 0
         if self.truth is None or self.truth.points is None:
             return np.ones(size, dtype=bool)
@@ -69,21 +69,21 @@ class Pair:
 
     @property
     def anything_moves(self) -> bool:
-        """Whether the estimate found something that moves."""
+        """Whether any source point is labelled Moving."""
         return self.flow is not None and bool((self.flow.label == Label.MOVING).any())
 
     @property
     def errors(self) -> Metrics | None:
-        """The errors of this pair; None unless it has a flow and its object moves."""
+        """Errors of this pair; None unless it has a flow and its object moves."""
         if self.object_velocity is None or (pooled := self.pooled_errors()) is None:
             return None
         return pooled.metrics()
 
     def pooled_errors(self, *, counts: bool = True) -> PooledErrors | None:
-        """The errors of this pair, to be pooled with others; None without a flow or truth.
+        """Errors of this pair, for pooling with others; None without flow or truth.
 
         Args:
-            counts: whether the object moves at both frames; else there is the false flow alone.
+            counts: whether the object moves at both frames; otherwise only false flow is pooled.
         """
         if self.flow is None or self.truth is None:
             return None
@@ -97,11 +97,11 @@ class Pair:
 
 @dataclass(frozen=True)
 class PreparedPair:
-    """A pair before its estimate, and the window of frames that a method looks at.
+    """A pair before its estimate, and the window that a method takes.
 
     Attributes:
         pair: without a flow.
-        window: None where the pair has no source. It remembers the stages of its estimates.
+        window: None without a source. It caches the stages of its estimates.
     """
 
     pair: Pair
@@ -109,20 +109,20 @@ class PreparedPair:
 
 
 LoadCloud = Callable[[int], Cloud]
-"""Gives the cloud of a frame."""
+"""Function from a frame to its cloud."""
 
 
 def prepare_pair(recording: Recording, k: int, parameters: Parameters) -> PreparedPair:
-    """Put the pair (k-n, k) of a recording together, without an estimate.
+    """Load the pair (k-n, k) of a recording, without an estimate.
 
     Args:
-        recording: to be estimated.
+        recording: to read.
         k: the target's frame.
-        parameters: of which `n` and `max_range` decide.
+        parameters: of which `n` and `max_range` are used.
 
     Raises:
-        RecordingError: the file is broken there. Frames between are read when a method asks for
-            them, and may raise it then.
+        RecordingError: the file is broken there. Frames between are read lazily, and may raise
+            it when a method reads them.
     """
 
     def load(frame: int) -> Cloud:
@@ -133,7 +133,7 @@ def prepare_pair(recording: Recording, k: int, parameters: Parameters) -> Prepar
 
 
 def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCloud) -> Pair:
-    """Clouds, interval and truth of the pair (k-n, k); arguments and errors as `prepare_pair`."""
+    """Load the pair (k-n, k) through `load`; arguments and errors as `prepare_pair`."""
     source_k = k - parameters.n
     target, link_poses = load(k), recording.link_poses(k)
     if source_k < 0:
@@ -150,13 +150,13 @@ def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCl
 
 
 def window_of(pair: Pair, recording: Recording, load: LoadCloud, stages: Stages) -> Window | None:
-    """The frames from a pair's source to its target, None without a source.
+    """Window from a pair's source to its target, None without a source.
 
     Args:
         pair: of the recording.
-        recording: from which frames between are read when a method asks for them.
-        load: reads them.
-        stages: results of the pair's earlier estimates.
+        recording: of the stamps.
+        load: reads the frames between, lazily.
+        stages: cached results of the pair's earlier estimates.
     """
     if pair.source is None:
         return None

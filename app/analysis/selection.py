@@ -1,4 +1,4 @@
-"""The cluster that a person has picked, found again in every further estimate."""
+"""Picked cluster, matched from one estimate to the next."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,28 +7,28 @@ from scipy.spatial import KDTree
 from app.analysis.pairs import Pair
 from estimator import ClusterResult
 
-_TOLERANCE = 0.012  # rad between the ray of a click and a point that it still means
-_SAME = 0.05  # metres between points of two estimates that are taken for the same
+_TOLERANCE = 0.012  # maximum angle between the ray of a click and the point it selects, rad
+_SAME = 0.05  # maximum distance between matching points of two estimates, metres
 
 
 class Selection:
-    """Follows a picked cluster by its points, since its number says nothing elsewhere.
+    """Follows a picked cluster by its points, since indices differ between estimates.
 
-    Where a cluster is not found, its points are kept: it may be there in the next estimate.
+    Where no cluster matches, the points are kept for the next estimate.
     """
 
     def __init__(self) -> None:
         self._points: NDArray[np.float64] | None = None
 
     def pick(self, pair: Pair, index: int | None) -> None:
-        """Pick the cluster with this index in the pair's flow; None, or no such one, picks none."""
+        """Pick the cluster with this index, or none if the pair's flow lacks it."""
         picked = cluster_of(pair, index)
         self._points = None if picked is None else points_of(pair, picked)
 
     def follow(self, pair: Pair | None) -> int | None:
-        """The index of the picked cluster in a pair's flow, None where it is not there.
+        """Index of the picked cluster in a pair's flow, None without a match.
 
-        It is the one that most of the picked cluster's points belong to, half of them at least.
+        The match is the cluster nearest to most of the picked points, half of them at least.
         """
         if self._points is None or pair is None or pair.flow is None or not pair.flow.clusters:
             return None
@@ -43,18 +43,18 @@ class Selection:
         return pair.flow.clusters[best].index
 
     def drop(self) -> None:
-        """Pick none."""
+        """Clear the selection."""
         self._points = None
 
 
 def cluster_of(pair: Pair, index: int | None) -> ClusterResult | None:
-    """The cluster with this index, None where the pair's flow has none."""
+    """The cluster with this index in the pair's flow, None if there is none."""
     clusters = pair.flow.clusters if pair.flow else ()
     return next((cluster for cluster in clusters if cluster.index == index), None)
 
 
 def points_of(pair: Pair, cluster: ClusterResult) -> NDArray[np.float64]:
-    """The points (N, 3) of a cluster of a pair's flow, of source and target."""
+    """Source and target points (N, 3) of a cluster of a pair's flow."""
     assert pair.source is not None
     return np.vstack([pair.source.points[cluster.source], pair.target.points[cluster.target]])
 
@@ -62,15 +62,15 @@ def points_of(pair: Pair, cluster: ClusterResult) -> NDArray[np.float64]:
 def cluster_at(
     pair: Pair, origin: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> int | None:
-    """The cluster that a ray from the camera means: that of the point which is nearest to it.
+    """Index of the cluster that a ray from the camera selects, by the point nearest to the ray.
 
     Args:
-        pair: whose clusters are asked for.
+        pair: to search.
         origin: (3,) metres, in the fixed frame.
         direction: (3,), of any length.
 
     Returns:
-        The cluster's index, None where the ray passes all clusters by.
+        The cluster's index, None if the ray misses all clusters.
     """
     found: list[tuple[float, int]] = []
     direction = direction / np.linalg.norm(direction)

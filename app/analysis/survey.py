@@ -1,4 +1,4 @@
-"""Numbers of every frame of a recording: points that move, their speed, and the errors."""
+"""Moving points, speed and errors of every frame of a recording."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,20 +12,20 @@ _SUMS = len(PooledErrors().sums)
 
 
 class Survey:
-    """The numbers of every frame of one recording with one set of parameters.
+    """Moving points, speeds and errors of every frame, with one set of parameters.
 
-    It is filled by one thread, in any order, and may be read by others meanwhile.
+    Filled by one thread, in any order, while other threads may read it.
 
     Attributes:
         parameters: of the estimates.
-        done: (K,) whether a frame's numbers are there.
+        done: (K,) whether a frame was computed.
         moving: (K,) points with a flow.
-        empty: (K,) whether it is known that no point is placed in a frame.
+        empty: (K,) whether a frame is known to have no points.
         speed: (K,) m/s, mean over the points with a flow.
         true_speed: (K,) m/s of the moving object over the pair, 0 where it rests.
         metrics: {name as in `METRIC_INFO`: (K,) its values, at pairs that count}.
 
-    Every number is NaN where it is not there yet, or where nothing defines it.
+    Values are NaN where not yet computed or undefined.
     """
 
     def __init__(self, recording: Recording, parameters: Parameters) -> None:
@@ -51,17 +51,17 @@ class Survey:
 
     @property
     def complete(self) -> bool:
-        """Whether every frame's numbers are there."""
+        """Whether every frame was computed."""
         return bool(self.done.all())
 
     def missing(self) -> int | None:
-        """A frame whose numbers are not there yet, None where there is none."""
+        """Next frame to compute, None once all are done."""
         while self._at < len(self._order) and self.done[self._order[self._at]]:
             self._at += 1
         return self._order[self._at] if self._at < len(self._order) else None
 
     def put(self, k: int, pair: Pair | None) -> None:
-        """Take the numbers of frame `k` from its pair; None where the recording is broken there."""
+        """Store the numbers of frame `k` from its pair, None for a broken frame."""
         if pair is not None and pair.source is not None:
             self.empty[k] = len(pair.target.points) == 0
             self.empty[k - self.parameters.n] = len(pair.source.points) == 0
@@ -79,7 +79,7 @@ class Survey:
         self.done[k] = True
 
     def summary(self) -> Metrics:
-        """The errors pooled over the pairs, as `evaluate` does it."""
+        """Errors pooled over the pairs, as by `evaluate`."""
         errors = PooledErrors()
         for sums in self._sums:
             errors.include(sums)
@@ -93,5 +93,5 @@ class Survey:
 
 
 def coarse_to_fine(size: int) -> list[int]:
-    """All of `range(size)`: every 16th first, so that a plot shows its shape early."""
+    """Permutation of `range(size)`, every 16th first, so that a plot shows its shape early."""
     return sorted(range(size), key=lambda k: (-min(k & -k, 16) if k else -16, k))

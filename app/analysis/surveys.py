@@ -1,4 +1,4 @@
-"""Surveys of whole recordings, filled in the background while people do something else."""
+"""Surveys of whole recordings, computed in a background thread."""
 
 import logging
 import threading
@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
-from app.analysis.cache import Memory
+from app.analysis.cache import Cache
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.pairs import Pair
@@ -15,104 +15,106 @@ from app.errors import UserError
 from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
-_QUIET = 0.6  # seconds without anybody waiting for an estimate; who tunes is hardly held up
-_PATIENCE = 2.0  # seconds after which each survey goes on by one frame all the same
-_TELL = 0.3  # seconds between two times that a listener is told of something new
+_QUIET = (
+    0.6  # seconds without foreground work before the next pair, so that sliders stay responsive
+)
+_PATIENCE = 2.0  # seconds after which each survey advances by one frame in any case
+_NOTIFY_INTERVAL = 0.3  # minimum seconds between two notifications
 
 
 @dataclass
 class _Request:
-    """What somebody wants to know; nothing of it is told once `wanted` is false."""
+    """A requested survey; no more notifications once `wanted` is false."""
 
     opened: Opened
     parameters: Parameters
-    tell: Callable[[Survey], None]
+    notify: Callable[[Survey], None]
     wanted: bool = True
-    told: float = field(default=float("-inf"))
+    notified: float = field(default=float("-inf"))
     survey: Survey | None = None
 
 
 class Surveys:
-    """Fills surveys in one thread for all sessions, a pair for each of them in turn.
+    """Fills the surveys of all sessions in one thread, one pair of each in turn.
 
     Args:
-        estimates: computes the pairs, and remembers them for whoever looks at them next.
-        remembered: how many surveys are remembered.
+        estimates: computes and caches the pairs.
+        size: maximum number of cached surveys.
     """
 
-    def __init__(self, estimates: Estimates, remembered: int = 16) -> None:
+    def __init__(self, estimates: Estimates, size: int = 16) -> None:
         self._estimates = estimates
-        self._surveys: Memory[tuple, Survey] = Memory(remembered)
+        self._surveys: Cache[tuple, Survey] = Cache(size)
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}
         self._thread: threading.Thread | None = None
 
-    def ask(
+    def request(
         self,
-        who: Hashable,
+        owner: Hashable,
         opened: Opened,
         parameters: Parameters,
-        tell: Callable[[Survey], None],
+        notify: Callable[[Survey], None],
     ) -> None:
-        """Ask for a survey instead of the one that `who` asked for before.
+        """Request a survey, in place of the owner's earlier one.
 
         Args:
-            who: asks for one at a time.
-            opened: stays open until `who` asks for another or leaves.
+            owner: of the request; has one at a time.
+            opened: must stay open until the owner's next request or `cancel`.
             parameters: of the estimates.
-            tell: is called with the survey by the background's thread, when something of it is
-                new and at last when it is complete; it must not wait.
+            notify: called with the survey by the background thread, repeatedly and when it is
+                complete; must not block.
         """
         with self._changed:
-            self._withdraw(who)
-            self._requests[who] = _Request(opened, parameters, tell)
+            self._withdraw(owner)
+            self._requests[owner] = _Request(opened, parameters, notify)
             if self._thread is None:
                 # Not a daemon: it must not be cut off inside of Open3D when the program ends.
                 self._thread = threading.Thread(target=self._run, name="surveys")
                 self._thread.start()
 
     def known(self, opened: Opened, parameters: Parameters) -> Survey | None:
-        """A survey as far as it is filled, None where nothing of it is remembered."""
+        """The survey as far as it is filled, None if it is not cached."""
         return self._surveys.known((opened.key, parameters))
 
-    def leave(self, who: Hashable) -> None:
-        """Ask for nothing any more."""
+    def cancel(self, owner: Hashable) -> None:
+        """Cancel the owner's request."""
         with self._changed:
-            self._withdraw(who)
+            self._withdraw(owner)
 
-    def _withdraw(self, who: Hashable) -> None:
-        if request := self._requests.pop(who, None):
+    def _withdraw(self, owner: Hashable) -> None:
+        if request := self._requests.pop(owner, None):
             request.wanted = False
 
     def _run(self) -> None:
         while True:
             with self._changed:
                 if not self._requests:
-                    self._thread = None  # the next who asks starts another
+                    self._thread = None  # the next request starts another
                     return
                 turn = list(self._requests.items())
-            for who, request in turn:
+            for owner, request in turn:
                 self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
                 try:
                     if request.wanted and self._advance(request):
-                        self._finish(who, request)
+                        self._finish(owner, request)
                 except Exception:
                     _LOG.exception("A survey could not go on.")
-                    self._finish(who, request)
+                    self._finish(owner, request)
 
-    def _finish(self, who: Hashable, request: _Request) -> None:
+    def _finish(self, owner: Hashable, request: _Request) -> None:
         with self._changed:
-            if self._requests.get(who) is request:
-                del self._requests[who]
+            if self._requests.get(owner) is request:
+                del self._requests[owner]
 
     def _advance(self, request: _Request) -> bool:
-        """Fill in one frame; whether there is nothing left to do."""
+        """Fill in one frame, and return whether the request is finished."""
         opened, parameters = request.opened, request.parameters
         survey = request.survey = request.survey or self._surveys.get(
             (opened.key, parameters), lambda: Survey(opened.recording, parameters)
         )
-        for known in self._estimates.remembered(opened, parameters):
-            if not survey.done[known.frame]:  # who plays or scrubs has computed it already
+        for known in self._estimates.cached(opened, parameters):
+            if not survey.done[known.frame]:  # already computed by playing or scrubbing
                 survey.put(known.frame, known)
         k = survey.missing()
         if k is not None:
@@ -121,16 +123,16 @@ class Surveys:
                 return True  # its recording may have been closed meanwhile
             survey.put(k, pair)
         now = time.monotonic()
-        if survey.complete or now - request.told > max(_TELL, len(survey) * 2e-4):
-            request.told = now
-            request.tell(survey)
+        if survey.complete or now - request.notified > max(_NOTIFY_INTERVAL, len(survey) * 2e-4):
+            request.notified = now
+            request.notify(survey)
         return survey.complete
 
     def _pair(self, request: _Request, k: int) -> Pair | None:
         try:
-            return self._estimates.estimated_ahead(request.opened, k, request.parameters)
+            return self._estimates.estimated_in_background(request.opened, k, request.parameters)
         except UserError:
-            return None  # whoever goes to this frame is told why
+            return None  # reported when the frame is shown
         except Exception:
             if request.wanted:
                 raise

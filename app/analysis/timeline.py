@@ -1,4 +1,4 @@
-"""What a recording's timeline shows: where frames are missing, empty, or something moves."""
+"""Timeline of a recording: missing frames, empty frames, and motion."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -9,19 +9,18 @@ from numpy.typing import NDArray
 from app.analysis.evaluation import moves
 from recordings import Recording
 
-# Median intervals: one frame that is missing makes 2 of them. Sensors that jitter come up to 1.7 of
-# them late, with no frame missing.
+# In median intervals: a missing frame makes 2; jitter alone makes up to 1.7.
 _GAP = 1.75
 
 
 @dataclass(frozen=True)
 class Timeline:
-    """A recording at a glance, as far as it is known.
+    """Gaps, empty stretches and motion of a recording, as far as known.
 
     Attributes:
         count: number of frames.
-        gaps: frames before which frames are missing.
-        empty: (first, last) frames of the stretches in which no point is placed.
+        gaps: frames directly after missing ones.
+        empty: (first, last) frames of the stretches without points.
         moving: (first, last) frames of the stretches in which something moves.
     """
 
@@ -31,8 +30,8 @@ class Timeline:
     moving: tuple[tuple[int, int], ...]
 
 
-class Outline:
-    """What a recording says of its timeline by itself.
+class RecordedTimeline:
+    """The part of a timeline that needs no estimate: gaps, unplaced frames, true motion.
 
     Attributes:
         count: number of frames.
@@ -47,11 +46,11 @@ class Outline:
         )
 
     def with_estimates(self, empty: Sequence[bool], moving: Sequence[bool]) -> Timeline:
-        """The timeline, with what estimates say: flags (K,), unset where nothing is known.
+        """The whole timeline, with flags (K,) from estimates, False where unknown.
 
         Args:
-            empty: whether no point is placed in a frame.
-            moving: whether something moves; the truth goes before it where there is one.
+            empty: whether a frame has no points.
+            moving: whether something moves; ignored where there is truth.
         """
         return Timeline(
             self.count,
@@ -62,7 +61,7 @@ class Outline:
 
 
 def gaps(stamps: NDArray[np.float64]) -> tuple[int, ...]:
-    """Frames before which the interval is so long that a frame is missing.
+    """Frames directly after an interval long enough to miss a frame.
 
     Args:
         stamps: (K,) seconds, strictly increasing.
@@ -74,7 +73,7 @@ def gaps(stamps: NDArray[np.float64]) -> tuple[int, ...]:
 
 
 def stretches(flags: Iterable[bool]) -> tuple[tuple[int, int], ...]:
-    """(first, last) of each run of frames whose flag is set."""
+    """(first, last) of each run of True flags."""
     return tuple(_runs(flags))
 
 
@@ -92,9 +91,9 @@ def _runs(flags: Iterable[bool]) -> Iterator[tuple[int, int]]:
 
 
 def neighbour(moving: Sequence[tuple[int, int]], frame: int, direction: int) -> int | None:
-    """Where the next stretch begins (direction 1) or the previous one (-1), None at the ends.
+    """First frame of the next stretch (direction 1) or the previous one (-1), None at the ends.
 
-    Within a stretch the previous one is its own beginning.
+    Within a stretch, the previous one is the stretch's own first frame.
     """
     starts = [first for first, _ in moving]
     if direction > 0:

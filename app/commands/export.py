@@ -112,7 +112,7 @@ def run(options: argparse.Namespace) -> int:
 def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
     from app.analysis.estimates import Estimates
     from app.analysis.first_frame import first_frame_with_flow
-    from app.exports.picture import Framing, picture
+    from app.exports.picture import PictureSettings, picture
 
     estimates, frame = Estimates(), options.frame
     if frame is None:
@@ -121,7 +121,7 @@ def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.
     width, height = options.size or (1600, 900)
     pair = estimates.estimated(opened, frame, parameters)
     views = _views(options)
-    framing = Framing(width, height, views, options.transparent, options.legend)
+    framing = PictureSettings(width, height, views, options.transparent, options.legend)
     content = picture(opened, pair, parameters, _settings(options), framing)
     write(options.screenshot, content)
     print(

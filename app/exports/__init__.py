@@ -1,1 +1,1 @@
-"""Files that show a recording without the app: pictures, numbers, and a page that plays offline."""
+"""Exports: pictures, CSV files, and a page that plays offline."""

@@ -1,4 +1,4 @@
-"""What every exported file says of itself: which recording, which frame, estimated how."""
+"""Captions of exported files: recording, frame, method and parameters."""
 
 import json
 from collections.abc import Mapping
@@ -14,12 +14,12 @@ def caption(
     frame: int | None,
     sides: Mapping[str, Parameters] = MappingProxyType({}),
 ) -> Mapping[str, str]:
-    """{what: value}, in the order in which people read it.
+    """Caption as {name: value}, in reading order.
 
     Args:
-        recording: what was seen.
-        parameters: of the estimate; JSON that --parameters takes again.
-        frame: k, None where a file holds many.
+        recording: that is shown.
+        parameters: of the estimate, written as JSON that --parameters takes.
+        frame: k, None for a file with many.
         sides: {A or B: its parameters} where the flow of both is drawn.
     """
     said = {"Recording": recording.name, "Data": origin(recording)}
@@ -35,7 +35,7 @@ def caption(
 
 
 def origin(recording: Recording) -> str:
-    """Whether it was measured or simulated, and what was simulated."""
+    """Origin of the data: measured, or simulated with scenario, speed and trial."""
     source = recording.provenance
     if not recording.simulated:
         return "measured"

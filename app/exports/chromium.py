@@ -1,4 +1,4 @@
-"""A browser that nobody sees, for pictures of what only a browser can draw."""
+"""Headless Chromium, which renders scenes for exports."""
 
 import contextlib
 import os
@@ -17,18 +17,18 @@ _FLAGS = (
     "--disable-sync",
     "--no-first-run",
     "--ignore-gpu-blocklist",
-    # Drawn in software, a picture is the same on every machine.
+    # Software rendering gives the same picture on every machine.
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 )
 
 
 @contextlib.contextmanager
-def hidden_page(address: str, width: int, height: int) -> Iterator[None]:
-    """Have a page open meanwhile, in a window of this size in pixels.
+def headless_page(address: str, width: int, height: int) -> Iterator[None]:
+    """Context with a page open in a headless window of this size in pixels.
 
     Raises:
-        InputError: there is no Chromium, or it cannot be used.
+        InputError: Chromium is missing or does not start.
     """
     with sync_playwright() as playwright:
         path = _find(playwright)
@@ -46,7 +46,7 @@ def hidden_page(address: str, width: int, height: int) -> Iterator[None]:
 
 
 def _find(playwright: Playwright) -> str:
-    """Path of a Chromium: the system's, or the one that playwright has installed."""
+    """Path of Chromium: the system's, else the one installed by playwright."""
     for name in _NAMES:
         if path := shutil.which(name):
             return path

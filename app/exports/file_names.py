@@ -1,8 +1,8 @@
-"""Names for files that the app makes."""
+"""Names of files that the app writes."""
 
 import re
 
 
 def safe(name: str) -> str:
-    """The name with whatever not every file system takes replaced."""
+    """Replace all characters that some file systems reject."""
     return re.sub(r"[^A-Za-z0-9._-]+", "_", name)

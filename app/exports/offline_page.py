@@ -1,4 +1,4 @@
-"""An animated scene as one HTML file, which a browser opens from disk, without network."""
+"""Animated scene as one HTML file, which a browser plays without network."""
 
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
@@ -13,18 +13,18 @@ from app.browser.internals import NO_FLASH, PAGE_TITLE
 from app.errors import InputError
 from app.exports.captions import caption
 from app.scene.camera import Camera
-from app.scene.legend import Legend, Mark
+from app.scene.legend import Legend, LegendEntry
 from app.scene.legend_html import html
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
-from app.scene.theme import dress
+from app.scene.theme import apply_theme
 from estimator import Parameters
 from recordings import Recording
 
 MOST_FRAMES = 3000
 """A page with more frames would be too large for a browser."""
 
-# The player's bar is at the bottom.
+# Clear of the player's bar at the bottom.
 _LEGEND_STYLE = """<style>
 [data-legend] { bottom: 54px !important; font-family: system-ui, sans-serif }
 </style>"""
@@ -35,22 +35,22 @@ def offline_page(
     frames: Sequence[int],
     parameters: Parameters,
     settings: ViewSettings,
-    stand: str | Camera,
+    camera: str | Camera,
     estimates: Estimates,
     progress: Callable[[int], None],
     comparison: Comparison | None = None,
 ) -> str:
-    """The frames of a recording as a page that plays them at the speed of their stamps.
+    """Render frames of a recording as an HTML page that plays them at their recorded speed.
 
     Args:
         opened: the recording.
         frames: k of each frame, increasing; at least one.
         parameters: of the estimate.
         settings: of the drawing.
-        stand: where the camera stands at first, or one of `VIEWS`.
-        estimates: computes and remembers.
-        progress: is told how many frames are drawn; what it raises ends the work.
-        comparison: with other parameters, whose flow is drawn too where it says so.
+        camera: initial camera, or one of `VIEWS`.
+        estimates: computes and caches flows.
+        progress: called with the number of frames drawn; an error it raises ends the work.
+        comparison: with other parameters, whose flow is drawn too if its `both` is set.
 
     Raises:
         InputError: more frames than a page may have.
@@ -62,32 +62,32 @@ def offline_page(
             "take a part of them with tofscope export --frames FIRST:LAST --html FILE."
         )
     recording = opened.recording
-    # The recorder of viser's messages belongs to a server, and hears what is drawn for everybody.
+    # viser records messages of a server only, not of a single client.
     server = GuardedServer("127.0.0.1", 0)
     try:
-        dress(server.gui, settings.dark)
+        apply_theme(server.gui, settings.dark)
         scene = Scene(server, settings)
         scene.open(recording)
         scene.change(settings)
-        first = estimates.estimated_ahead(opened, frames[0], parameters)
+        first = estimates.estimated_in_background(opened, frames[0], parameters)
         scene.show(first)
-        if isinstance(stand, Camera):
-            scene.stand(stand)
+        if isinstance(camera, Camera):
+            scene.set_camera(camera)
         else:
-            scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), stand)
-        marks: dict[str, Mark] = {}
+            scene.place_camera(estimates.pair(opened, frames[len(frames) // 2], parameters), camera)
+        entries: dict[str, LegendEntry] = {}
         recorder = server.get_scene_serializer()
         for index, (k, pause) in enumerate(zip(frames, _pauses(recording, frames), strict=True)):
             progress(index)
-            pair = estimates.estimated_ahead(opened, k, parameters)
+            pair = estimates.estimated_in_background(opened, k, parameters)
             if comparison is not None and comparison.both:
-                other = estimates.estimated_ahead(opened, k, comparison.other)
+                other = estimates.estimated_in_background(opened, k, comparison.other)
                 scene.show(pair, other, comparison.edited)
             else:
                 scene.show(pair)
-            marks |= {mark.text: mark for mark in scene.legend.marks}
+            entries |= {entry.text: entry for entry in scene.legend.entries}
             recorder.insert_sleep(pause)
-        legend = Legend(tuple(marks.values()), scene.legend.ramp, settings.dark)
+        legend = Legend(tuple(entries.values()), scene.legend.ramp, settings.dark)
         page = recorder.as_html(dark_mode=settings.dark)
     finally:
         server.stop()
@@ -102,14 +102,14 @@ def offline_page(
 
 
 def _pauses(recording: Recording, frames: Sequence[int]) -> list[float]:
-    """Seconds for which each frame is seen; the last one as long as most others."""
+    """Seconds to show each frame; the median interval for the last."""
     pauses = np.diff(recording.stamps[list(frames)])
     usual = float(np.median(pauses)) if len(pauses) else 0.0
     return [*map(float, pauses), usual]
 
 
 def _about(title: str, said: Mapping[str, str], *, dark: bool) -> str:
-    """A box above the scene: what the page shows, {what: value}."""
+    """HTML of a folded box over the scene with the caption {name: value}."""
     ink, paper = ("#ddd", "rgba(30, 30, 34, 0.88)") if dark else ("#222", "#ffffffe0")
     rows = "".join(_row(name, value) for name, value in said.items())
     box = (
@@ -128,7 +128,7 @@ def _about(title: str, said: Mapping[str, str], *, dark: bool) -> str:
 
 
 def _row(name: str, value: str) -> str:
-    # Parameters are JSON, which people need not see.
+    # Parameters are JSON; they read better without its punctuation.
     value = value.strip("{}").replace('"', "")
     return (
         '<tr style="vertical-align: top"><td style="padding-right: 1em; white-space: nowrap">'

@@ -1,4 +1,4 @@
-"""A picture of the scene as a PNG file, with no one at a browser."""
+"""Picture of the scene as a PNG file, rendered without a user's browser."""
 
 import threading
 import time
@@ -13,27 +13,27 @@ from app.analysis.pairs import Pair
 from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
 from app.exports.captions import caption
-from app.exports.chromium import hidden_page
-from app.exports.pictures import finished, png, side_by_side
+from app.exports.chromium import headless_page
+from app.exports.pictures import composed, png, side_by_side
 from app.scene import theme
-from app.scene.photograph import Photographer
+from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from estimator import Parameters
 
-_TIMEOUT = 120.0  # seconds until a picture must be there
+_TIMEOUT = 120.0  # seconds until a picture must have been rendered
 
 
 @dataclass(frozen=True)
-class Framing:
-    """What a picture takes in.
+class PictureSettings:
+    """Size, views and background of a picture.
 
     Attributes:
         width: pixels of each view.
         height: pixels.
-        views: where the camera stands, of `VIEWS`; they stand side by side.
-        transparent: whether there is no background.
-        legend: whether it says what the colours mean.
+        views: names of `VIEWS`, placed side by side.
+        transparent: whether the background is transparent.
+        legend: whether a legend is drawn.
     """
 
     width: int
@@ -44,19 +44,23 @@ class Framing:
 
 
 def picture(
-    opened: Opened, pair: Pair, parameters: Parameters, settings: ViewSettings, framing: Framing
+    opened: Opened,
+    pair: Pair,
+    parameters: Parameters,
+    settings: ViewSettings,
+    layout: PictureSettings,
 ) -> bytes:
-    """PNG of a pair as the app draws it; what it shows is in the file's text.
+    """Render a pair as PNG, as the app draws it, with its caption as PNG text.
 
     Args:
         opened: the recording.
         pair: of one of its frames, estimated.
         parameters: of the estimate.
         settings: of the drawing.
-        framing: of the picture.
+        layout: of the picture.
 
     Raises:
-        InputError: there is no Chromium, or it gives no picture.
+        InputError: Chromium is missing or returns no picture.
     """
     server = GuardedServer("127.0.0.1", 0)
     try:
@@ -69,8 +73,8 @@ def picture(
             arrived.set()
 
         address = f"http://127.0.0.1:{server.get_port()}"
-        # The size of points follows the window, which is why it is as large as the picture.
-        with hidden_page(address, framing.width, framing.height):
+        # The page sizes points for its window, which is therefore as large as the picture.
+        with headless_page(address, layout.width, layout.height):
             if not arrived.wait(_TIMEOUT):
                 raise InputError(f"Chromium did not show the scene within {_TIMEOUT:.0f} s.")
             client = clients[0]
@@ -79,32 +83,32 @@ def picture(
                 scene.open(opened.recording)
                 scene.change(settings)
                 scene.show(pair)
-                scene.place_camera(pair, framing.views[0], framing.width / framing.height)
-            photographer = Photographer(client, scene)
-            taken = [_settled(photographer, pair, view, framing) for view in framing.views]
-            legend = scene.legend if framing.legend else None
+                scene.place_camera(pair, layout.views[0], layout.width / layout.height)
+            renderer = SceneRenderer(client, scene)
+            taken = [_settled(renderer, pair, view, layout) for view in layout.views]
+            legend = scene.legend if layout.legend else None
     finally:
         server.stop()
-    background = None if framing.transparent else theme.background(settings.dark)
+    background = None if layout.transparent else theme.background(settings.dark)
     legends = [legend] + [None] * len(taken)
     pictures = [
-        finished(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
+        composed(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
     ]
     return png(side_by_side(pictures), caption(opened.recording, parameters, pair.frame))
 
 
 def _settled(
-    photographer: Photographer, pair: Pair, view: str, framing: Framing
+    renderer: SceneRenderer, pair: Pair, view: str, layout: PictureSettings
 ) -> NDArray[np.uint8]:
-    """The picture (H, W, 4), once it does not change any more."""
+    """Render until two pictures (H, W, 4) in a row are equal."""
     end = time.monotonic() + _TIMEOUT
     before: NDArray[np.uint8] | None = None
     while time.monotonic() < end:
         try:
-            pixels = photographer.take(pair, view, framing.width, framing.height)
+            pixels = renderer.render(pair, view, layout.width, layout.height)
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
-                f"Chromium gave no picture of {framing.width} x {framing.height} ({error}); "
+                f"Chromium gave no picture of {layout.width} x {layout.height} ({error}); "
                 "try a smaller --size."
             ) from error
         if before is not None and pixels[..., 3].any() and np.array_equal(pixels, before):

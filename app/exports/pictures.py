@@ -1,4 +1,4 @@
-"""Pictures of the scene as PNG files: background, legend, and what they say of themselves."""
+"""Composition of rendered scenes into PNG files, with background, legend and caption."""
 
 import io
 from collections.abc import Mapping, Sequence
@@ -12,20 +12,20 @@ from app.scene.colours import Colour
 from app.scene.legend import Legend
 from app.scene.palettes import blend
 
-_TEXT = 1 / 52  # height of the legend's text by the height of the picture
+_TEXT = 1 / 52  # height of the legend's text, as a fraction of the picture's height
 _DARK_INK, _LIGHT_INK = (38, 40, 44, 255), (230, 231, 234, 255)
 _DARK_GROUND, _LIGHT_GROUND = (28, 29, 32, 205), (255, 255, 255, 217)
 
 
-def finished(
+def composed(
     pixels: NDArray[np.uint8], background: Colour | None, legend: Legend | None
 ) -> Image.Image:
-    """A rendered image with its background and legend.
+    """Compose a rendered image with its background and legend.
 
     Args:
-        pixels: (H, W, 4), transparent where nothing is.
-        background: of the picture, None where it is to stay transparent.
-        legend: is drawn in the lower left corner, None for none.
+        pixels: (H, W, 4), transparent where nothing is drawn.
+        background: colour, None to keep it transparent.
+        legend: for the lower left corner, None for none.
     """
     picture = Image.fromarray(pixels).convert("RGBA")
     if background is not None:
@@ -39,7 +39,7 @@ def finished(
 
 
 def side_by_side(pictures: Sequence[Image.Image]) -> Image.Image:
-    """Pictures of one height and mode in a row."""
+    """Join pictures of equal height and mode in a row."""
     row = Image.new(
         pictures[0].mode, (sum(picture.width for picture in pictures), pictures[0].height)
     )
@@ -50,10 +50,10 @@ def side_by_side(pictures: Sequence[Image.Image]) -> Image.Image:
     return row
 
 
-def png(picture: Image.Image, said: Mapping[str, str]) -> bytes:
-    """The file, which carries {what: value} as its text."""
+def png(picture: Image.Image, caption: Mapping[str, str]) -> bytes:
+    """PNG file with the caption {name: value} as its text."""
     info = PngInfo()
-    for name, value in {"Software": "Tofscope", **said}.items():
+    for name, value in {"Software": "Tofscope", **caption}.items():
         info.add_text(name, value)
     data = io.BytesIO()
     picture.save(data, "PNG", pnginfo=info)
@@ -64,13 +64,13 @@ def _draw_legend(picture: Image.Image, legend: Legend, dark: bool) -> None:
     size = max(9, round(_TEXT * picture.height))
     font, draw = ImageFont.load_default(size), ImageDraw.Draw(picture)
     line, left, dot = round(1.5 * size), size, round(0.7 * size)
-    top = picture.height - size - line * (len(legend.marks) + (legend.ramp is not None))
+    top = picture.height - size - line * (len(legend.entries) + (legend.ramp is not None))
     ink, ground = (_LIGHT_INK, _DARK_GROUND) if dark else (_DARK_INK, _LIGHT_GROUND)
-    widths = [1.7 * dot + draw.textlength(mark.text, font) for mark in legend.marks]
+    widths = [1.7 * dot + draw.textlength(entry.text, font) for entry in legend.entries]
     if legend.ramp is not None:
         widths.append(9 * size + draw.textlength(legend.ramp.low + legend.ramp.high, font))
     edge = left // 2
-    # Points behind the letters would run through them.
+    # A shaded box keeps the text readable over points.
     shade = Image.new("RGBA", picture.size)
     ImageDraw.Draw(shade).rounded_rectangle(
         (edge, top - edge, left + max(widths, default=0) + edge, picture.height - edge),
@@ -78,11 +78,11 @@ def _draw_legend(picture: Image.Image, legend: Legend, dark: bool) -> None:
         fill=ground,
     )
     picture.alpha_composite(shade)
-    for mark in legend.marks:
+    for entry in legend.entries:
         middle = top + line / 2
         box = (left, middle - dot / 2, left + dot, middle + dot / 2)
-        draw.ellipse(box, fill=(*mark.colour, 255))
-        draw.text((left + 1.7 * dot, middle), mark.text, fill=ink, font=font, anchor="lm")
+        draw.ellipse(box, fill=(*entry.colour, 255))
+        draw.text((left + 1.7 * dot, middle), entry.text, fill=ink, font=font, anchor="lm")
         top += line
     if legend.ramp is not None:
         middle = top + line // 2

@@ -1,4 +1,4 @@
-"""A survey as a CSV file."""
+"""Surveys as CSV files."""
 
 import csv
 import io
@@ -11,9 +11,9 @@ from recordings import Recording
 
 
 def to_csv(recording: Recording, survey: Survey) -> str:
-    """A line that says what it is, a line of names with their units, and a line per frame.
+    """Write a survey as CSV: a comment line, a header with units, and a line per frame.
 
-    What is not defined is left empty.
+    Undefined values are left empty.
     """
     stamps = recording.stamps
     columns = {
@@ -39,7 +39,7 @@ def _heading(recording: Recording, survey: Survey) -> str:
         f"{name}={value}" for name, value in to_nested(survey.parameters).items()
     )
     origin = "simulated" if recording.simulated else "measured"
-    name = " ".join(recording.path.name.split())  # a line of its own, whatever a file is called
+    name = " ".join(recording.path.name.split())  # a line break in it would end the comment
     said = f"Tofscope; recording {name}; {origin}; {parameters}"
     if not survey.complete:
         said += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"

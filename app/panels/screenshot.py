@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from app.errors import InputError
 from app.exports.captions import caption
 from app.exports.file_names import safe
-from app.exports.pictures import finished, png, side_by_side
+from app.exports.pictures import composed, png, side_by_side
 from app.panels.panel import Panel, PanelContext
 from app.scene import theme
 from app.scene.legend import Legend
@@ -63,7 +63,7 @@ class TakeScreenshot(LatestWins):
         taken, legend = self._take(workbench)
         legends = [legend if self.legend else None] + [None] * len(taken)
         pictures = [
-            finished(pixels, background, legend)
+            composed(pixels, background, legend)
             for pixels, legend in zip(taken, legends, strict=False)
         ]
         compared = tuning.comparison
@@ -78,12 +78,12 @@ class TakeScreenshot(LatestWins):
         try:
             if workbench.pair is None:
                 raise InputError(_NO_PICTURE)
-            width, height = self.size or workbench.photographer.size()
+            width, height = self.size or workbench.renderer.size()
             size = (self.scale * width, self.scale * height)
             if self.background == _WHITE:
                 # The colours for a dark background are too pale for a white one.
                 workbench.change_view({"dark": False})
-            take = workbench.photographer.take
+            take = workbench.renderer.render
             return [
                 take(workbench.pair, view, *size) for view in self.views
             ], workbench.scene.legend

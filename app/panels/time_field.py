@@ -12,7 +12,7 @@ from app.browser.controls import show_value
 from app.browser.internals import element_id
 from app.panels.panel import PanelContext
 from app.session.command import LatestWins
-from app.session.snapshot import Snapshot, Sought
+from app.session.snapshot import Snapshot, TimeSeek
 from app.session.workbench import Workbench
 
 _TYPING = 2.0  # seconds for which a typed time stays, also while the recording is played
@@ -29,7 +29,7 @@ class SeekTime(LatestWins):
         if workbench.opened is not None:
             stamps = workbench.opened.recording.stamps
             workbench.seek(int(np.argmin(np.abs(stamps - stamps[0] - self.seconds))))
-            workbench.sought = Sought(self.seconds, workbench.frame)
+            workbench.time_seek = TimeSeek(self.seconds, workbench.frame)
 
 
 class TimeField:
@@ -42,7 +42,7 @@ class TimeField:
     def __init__(self, context: PanelContext) -> None:
         self._typed: float | None = None  # a time that the session has not gone to yet
         self._typed_at = -_TYPING
-        self._sought: Sought | None = None
+        self._sought: TimeSeek | None = None
         self._stays_at: int | None = None  # the frame that a typed time has led to
         self._control = context.client.gui.add_number(
             "Go to [s]",
@@ -68,12 +68,12 @@ class TimeField:
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the frame's time; a typed one stays until the frame is left that it has led to."""
-        sought = snapshot.sought
-        if sought is not None and sought is not self._sought:
-            self._stays_at = sought.frame
-            if sought.seconds == self._typed:
+        time_seek = snapshot.time_seek
+        if time_seek is not None and time_seek is not self._sought:
+            self._stays_at = time_seek.frame
+            if time_seek.seconds == self._typed:
                 self._typed = None
-        self._sought = sought
+        self._sought = time_seek
         typing = snapshot.playing and time.monotonic() < self._typed_at + _TYPING
         if typing or self._typed is not None or snapshot.frame == self._stays_at:
             return

@@ -12,7 +12,7 @@ from app.panels.panel import Panel, PanelContext
 from app.scene.lens import Lens, aspect_of
 from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS
-from app.scene.theme import dress
+from app.scene.theme import apply_theme
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
 from app.session.command import LatestWins, Repeated
 from app.session.commands import ChangeView
@@ -29,7 +29,7 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
 
 
 @dataclass(frozen=True)
-class Look(LatestWins):
+class SetView(LatestWins):
     """Put the camera to the view of this name."""
 
     view: str
@@ -37,7 +37,7 @@ class Look(LatestWins):
     def apply(self, workbench: Workbench) -> None:
         """Put it there."""
         if workbench.pair is not None:
-            workbench.framing.look(workbench.pair, self.view)
+            workbench.framing.set_view(workbench.pair, self.view)
 
 
 @dataclass(frozen=True)
@@ -46,9 +46,9 @@ class CameraMoved(LatestWins):
 
     def apply(self, workbench: Workbench) -> None:
         """Draw in sizes that suit it, and take its view anew in another shape."""
-        workbench.scene.focus()
+        workbench.scene.adapt_sizes()
         if workbench.pair is not None:
-            workbench.framing.follow(workbench.pair)
+            workbench.framing.adapt_to_window(workbench.pair)
 
 
 class _Toggle(Repeated):
@@ -96,7 +96,7 @@ class ViewPanel(Panel):
         if snapshot.settings.dark != self._dark:
             self._dark = snapshot.settings.dark
             show_value(self._dark_box, self._dark)
-            dress(self._gui, self._dark)
+            apply_theme(self._gui, self._dark)
 
     def _add_views(self, camera: viser.CameraHandle) -> None:
         views = self._gui.add_button_group(
@@ -107,11 +107,11 @@ class ViewPanel(Panel):
 
         @views.on_click
         async def _(_: viser.GuiEvent) -> None:
-            self._post(Look(views.value))
+            self._post(SetView(views.value))
 
         for view, key in _KEYS.items():
             command = self._gui.add_command(f"View: {view}", hotkey=key, icon=Icon.CAMERA)
-            command.on_trigger(lambda _, view=view: self._post(Look(view)))
+            command.on_trigger(lambda _, view=view: self._post(SetView(view)))
 
         drawn = [(Lens(0.0, 1.0), 0.0)]
 

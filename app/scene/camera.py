@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Camera:
-    """Pose and field of view of a camera, as numbers that can be saved.
+    """Pose and field of view of a camera, as plain numbers for saved files.
 
     Attributes:
         position: metres, in the drawing's frame.
-        look_at: what it looks at, metres, in the drawing's frame.
+        look_at: point it looks at, metres, in the drawing's frame.
         fov: vertical field of view, rad.
     """
 

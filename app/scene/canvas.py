@@ -1,4 +1,4 @@
-"""What a scene is drawn on."""
+"""Interface of the viser objects that a scene can be drawn on."""
 
 from typing import Protocol
 
@@ -6,14 +6,14 @@ import viser
 
 
 class Canvas(Protocol):
-    """A browser client, or a server whose scene all its clients see."""
+    """A browser client, or a server whose scene is common to all its clients."""
 
     @property
     def scene(self) -> viser.SceneApi:
-        """Where things are drawn."""
+        """Scene graph to add nodes to."""
         ...
 
     @property
     def camera(self) -> viser.CameraHandle | viser.InitialCameraConfig:
-        """From where they are seen, at first."""
+        """Camera that views the scene; on a server, its initial pose."""
         ...

@@ -18,9 +18,9 @@ SECOND_FLOW_NODE = f"{FIXED}/second_flow"
 TRUTH_NODE = f"{FIXED}/truth"
 GHOST_NODE = f"{FIXED}/ghost"
 
-_HEAD = 0.011  # length of an arrow's head by the height of the picture, at most
-_SHAFT, _TRUTH_SHAFT = 0.0013, 0.003  # radii of shafts by the height of the picture
-_HEAD_WIDTH, _TRUTH_HEAD_WIDTH = 0.32, 0.5  # radii of heads by their length
+_HEAD = 0.011  # maximum length of an arrow's head, as a fraction of the picture's height
+_SHAFT, _TRUTH_SHAFT = 0.0013, 0.003  # radii of shafts, as fractions of the picture's height
+_HEAD_WIDTH, _TRUTH_HEAD_WIDTH = 0.32, 0.5  # radii of heads, as fractions of their length
 _NONE = np.zeros((0, 2, 3), dtype=np.float32)
 
 
@@ -39,13 +39,13 @@ class CloudsView:
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
-        """Draw what is of one colour in the colours of a palette."""
+        """Apply a palette to the nodes of a single colour."""
         self._target.colors = np.array(palette.target, dtype=np.uint8)
         self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
         self._truth.colors = np.array(palette.truth, dtype=np.uint8)
 
     def show_source(self, points: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
-        """Draw the source (N, 3), in a colour (3,) or in one for each point (N, 3)."""
+        """Draw the source (N, 3) in one colour (3,) or in a colour per point (N, 3)."""
         self._source.points = points.astype(np.float32)
         self._source.colors = colours
 
@@ -54,7 +54,7 @@ class CloudsView:
         self._target.points = points.astype(np.float32)
 
     def show_ghost(self, points: NDArray[np.float64]) -> None:
-        """Draw points (N, 3) where the truth says that the moving source points are now."""
+        """Draw the moving source points (N, 3) displaced by their true motion."""
         self._ghost.points = points.astype(np.float32)
 
     def show_flow(
@@ -64,10 +64,10 @@ class CloudsView:
         seconds: float,
         colours: NDArray[np.uint8],
     ) -> None:
-        """Draw arrows as long as the way that is gone in `seconds`.
+        """Draw arrows whose length is the distance covered in `seconds`.
 
         Args:
-            points: (N, 3) where they start.
+            points: (N, 3) tails of the arrows, metres.
             velocity: (N, 3) m/s; rows of NaN have no arrow.
             seconds: above 0.
             colours: (N, 3).
@@ -99,15 +99,15 @@ class CloudsView:
 
     @property
     def radius(self) -> float:
-        """Of a point, metres."""
+        """Radius of a point, metres."""
         return self._target.point_size
 
     def fit(self, height: float, point_size: float) -> None:
-        """Draw points and shafts of a size that suits a picture.
+        """Scale points and arrows to the size of the picture.
 
         Args:
-            height: metres from the picture's bottom to its top, at what the camera looks at.
-            point_size: diameter of a point, by the height of the picture.
+            height: of the picture at the distance of the look-at point, metres.
+            point_size: diameter of a point, as a fraction of the picture's height.
         """
         self._height = height
         radius = point_size * height / 2
@@ -120,16 +120,20 @@ class CloudsView:
         _fit_head(self._truth, _TRUTH_HEAD_WIDTH, _HEAD * height)
 
     @contextmanager
-    def cleared(
+    def clipped(
         self,
         eye: NDArray[np.float64],
         forward: NDArray[np.float64],
         near: float,
         others: Iterable[viser.PointCloudHandle],
     ) -> Iterator[None]:
-        """Without the points nearer than `near` metres to an eye (3,) that looks forward (3,).
+        """Context without the points in front of a near plane; they come back afterwards.
 
-        The same is done to `others` than the clouds that are drawn here.
+        Args:
+            eye: (3,) position of the camera, metres, in the fixed frame.
+            forward: (3,) unit vector along its optical axis.
+            near: distance of the plane from the camera, metres.
+            others: further point clouds to clip.
         """
         kept = [(cloud, cloud.points, cloud.colors) for cloud in (*self._all, *others)]
         for cloud, points, colours in kept:
@@ -153,7 +157,7 @@ class CloudsView:
 def arrows(
     points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
 ) -> NDArray[np.float64]:
-    """Starts and ends (A, 2, 3) of the arrows that can be drawn: finite, and not of length 0."""
+    """Tails and tips (A, 2, 3) of all arrows that are finite and longer than 0."""
     drawn = has_arrow(points, velocity, seconds)
     return np.stack([points[drawn], points[drawn] + seconds * velocity[drawn]], axis=1)
 
@@ -161,7 +165,7 @@ def arrows(
 def has_arrow(
     points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
 ) -> NDArray[np.bool_]:
-    """Whether (N,) an arrow can be drawn."""
+    """Mask (N,) of the points whose arrow is finite and longer than 0."""
     long = np.linalg.norm(velocity * seconds, axis=1) > 1e-6
     return np.isfinite(points).all(axis=1) & long
 

@@ -11,7 +11,7 @@ FRUSTUM: Colour = (190, 110, 110)
 PICKED: Colour = (214, 0, 147)
 BRAND: Colour = (31, 99, 200)
 BRIGHT_BRAND: Colour = (90, 150, 245)
-"""For a dark page."""
+"""`BRAND` on a dark page."""
 
 
 def css(colour: Colour) -> str:

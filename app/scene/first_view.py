@@ -1,4 +1,4 @@
-"""Where the camera stands at first: sensors and what is near them in the picture, at a slant."""
+"""Initial camera pose: a slanted view of the sensors and their surroundings."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 
-_SMALLEST = 0.15  # metres, half the size of what fills the picture
-_REACH = 0.9  # metres around the sensors, within which things matter most
+_SMALLEST = 0.15  # metres, smallest half extent of the box that fills the picture
+_REACH = 0.9  # metres from the sensors' centre; points beyond are left out of the view
 
 
 @dataclass(frozen=True)
 class View:
-    """A camera: where it stands and what it looks at, (3,) each, in the drawing's frame."""
+    """Position and look-at point of a camera, (3,) each, metres, in the drawing's frame."""
 
     position: Vector
     look_at: Vector
@@ -28,7 +28,7 @@ def first_view(
     aspect: float,
     important: Sequence[Vector] = (),
 ) -> View:
-    """A view of the sensors and of what they see near by.
+    """View that contains the sensors and the points near them.
 
     Args:
         points: (N, 3) metres in the fixed frame.
@@ -36,14 +36,14 @@ def first_view(
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         fov: vertical field of view of the camera, rad.
         aspect: width by height of the picture.
-        important: sets of points (M, 3) in the fixed frame, of each of which most are to be seen,
-            wherever they are.
+        important: sets of points (M, 3) in the fixed frame; the view contains most of each, however
+            far away.
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
-    box = [*corners(points @ R_drawing_fixed.T, sensors)]
+    box = [*near_corners(points @ R_drawing_fixed.T, sensors)]
     for seen in important:
-        box += [*spread(seen @ R_drawing_fixed.T)]
+        box += [*percentile_corners(seen @ R_drawing_fixed.T)]
     low, high = np.min(box, axis=0), np.max(box, axis=0)
     centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
@@ -52,12 +52,12 @@ def first_view(
 
 
 def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> float:
-    """Metres from the centre of a box at which all its corners are just in the picture.
+    """Distance from the centre of a box at which all its corners just fit the picture, metres.
 
     Args:
-        half: (3,) metres, half the size of the box.
+        half: (3,) metres, half the size of the box along each axis.
         direction: (3,) unit vector from its centre to the camera.
-        slope: of the picture's upper edge.
+        slope: of the ray through the picture's upper edge.
         aspect: width by height of the picture.
     """
     signs = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
@@ -69,20 +69,20 @@ def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> f
     return float((aside + ways @ direction).max())
 
 
-def spread(points: Vector) -> Vector:
-    """Two corners (2, 3) of where most points are, none (0, 3) where there are no points."""
+def percentile_corners(points: Vector) -> Vector:
+    """5th and 95th percentile (2, 3) of points (N, 3); (0, 3) without points."""
     return np.percentile(points, [5, 95], axis=0) if len(points) else points
 
 
-def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
-    """The lowest and the highest corner of the box around the sensors and what is near them.
+def near_corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
+    """Lowest and highest corner of the box around the sensors and the points near them.
 
     Args:
         points: (N, 3) metres.
-        sensors: (S, 3) metres, where they are.
+        sensors: (S, 3) metres.
     """
     near = _near(points, sensors)
-    # Of the points a few may be wild; of the sensors every one is to be seen.
+    # Outliers among the points are left out; every sensor stays in view.
     seen = np.vstack([sensors, np.percentile(near, [5, 95], axis=0)]) if len(near) else sensors
     if len(seen) == 0:
         seen = np.zeros((1, 3))
@@ -90,9 +90,10 @@ def corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
 
 
 def _near(points: Vector, sensors: Vector) -> Vector:
-    """The points within reach of the sensors' centre, a part of them at the very least.
+    """Points within `_REACH` of the sensors' centre, and a minimum share of them in any case.
 
-    Several sensors see the walls on all sides; a single one looks at something.
+    The share is small for several sensors, which see walls all around, and large for a single
+    one, which is aimed at its subject.
     """
     if len(points) == 0 or len(sensors) == 0:
         return points
@@ -102,10 +103,10 @@ def _near(points: Vector, sensors: Vector) -> Vector:
 
 
 def _towards_camera(looking: Vector) -> Vector:
-    """A unit vector towards the camera: beside, a little behind and above where sensors look."""
+    """Unit vector towards the camera: to the side of the mean viewing direction, behind, above."""
     forward = looking.mean(axis=0) * [1.0, 1.0, 0.0] if len(looking) else np.zeros(3)
     if np.linalg.norm(forward) < 0.3:
-        forward = np.array([0.0, 1.0, 0.0])  # sensors all around look nowhere in particular
+        forward = np.array([0.0, 1.0, 0.0])  # the directions of sensors all around cancel out
     forward = forward / np.linalg.norm(forward)
     up = np.array([0.0, 0.0, 1.0])
     direction = np.cross(forward, up) - 0.5 * forward + 0.45 * up

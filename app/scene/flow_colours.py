@@ -1,4 +1,4 @@
-"""What the colours of points and arrows say."""
+"""Colours of points by label, and of arrows by speed, direction or cluster."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +20,11 @@ WHEEL: tuple[Colour, ...] = (
     (90, 150, 20),
     (0, 145, 170),
 )
-"""Around the compass: from -180 to 180 degrees, where it is closed."""
+"""Cyclic colour map of directions, from -180 to 180 degrees."""
 
 
 def source_colours(pair: Pair, palette: Palette) -> NDArray[np.uint8]:
-    """A colour (3,) for all source points of a pair, or one for each (N, 3) by its label."""
+    """Colours of a pair's source points: (N, 3) by label, or one (3,) without an estimate."""
     if pair.flow is None or len(pair.flow.label) == 0:
         return np.array(palette.source, dtype=np.uint8)
     colours = np.zeros((3, 3), dtype=np.uint8)
@@ -35,7 +35,7 @@ def source_colours(pair: Pair, palette: Palette) -> NDArray[np.uint8]:
 
 
 def speed_limit(pair: Pair, before: float) -> float:
-    """The speed at the ramp's end in m/s: a round number, never less than it was before."""
+    """Upper end of the speed ramp in m/s: a round number, never below the one `before`."""
     if pair.flow is None:
         return before
     speeds = np.linalg.norm(pair.flow.velocity[pair.flow.label == Label.MOVING], axis=1)
@@ -46,13 +46,13 @@ def speed_limit(pair: Pair, before: float) -> float:
 def arrow_colours(
     pair: Pair, settings: ViewSettings, limit: float, R_drawing_fixed: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """A colour (N, 3) for each source point's arrow.
+    """Colours (N, 3) of the source points' arrows.
 
     Args:
         pair: with a flow.
-        settings: say what the colour means.
-        limit: m/s at the ramp's end.
-        R_drawing_fixed: (3, 3); directions are those of the drawing, seen from above.
+        settings: whose `arrow_colours` selects what is encoded.
+        limit: speed at the end of the ramp, m/s.
+        R_drawing_fixed: (3, 3); directions are headings in the drawing's xy plane.
     """
     assert pair.flow is not None
     velocity, palette = pair.flow.velocity, settings.palette

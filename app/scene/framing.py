@@ -1,4 +1,4 @@
-"""Where a session's camera is put, and how it is kept there while the window changes its shape."""
+"""Placement of a session's camera, adapted when the window's aspect ratio changes."""
 
 import numpy as np
 import viser
@@ -9,19 +9,19 @@ from app.scene.lens import aspect_of
 from app.scene.scene import Scene
 from app.scene.views import THREE_D
 
-_SAME_SHAPE = 0.02  # of the aspect
-_SAME_PLACE = 0.01  # of the distance to what is looked at
+_SAME_SHAPE = 0.02  # relative change of the aspect ratio
+_SAME_PLACE = 0.01  # relative to the distance of the look-at point
 
 
 class Framing:
-    """Puts the camera to views by their names.
+    """Moves the camera to named views.
 
-    Panels that are docked or folded change the shape of the picture. A view is then taken anew,
-    unless a person has moved the camera since.
+    Docking or folding a panel changes the aspect ratio of the scene. The view is then computed
+    again, unless the user has moved the camera since.
 
     Args:
-        client: whose camera it is.
-        scene: what is seen.
+        client: owner of the camera.
+        scene: drawn in the client's browser.
     """
 
     def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
@@ -30,38 +30,38 @@ class Framing:
         self._blank = False
         self._taken: tuple[str, float, Camera] | None = None
 
-    def stand(self, camera: Camera) -> None:
-        """Let the next recording that is drawn be seen from there, instead of its first view."""
+    def start_from(self, camera: Camera) -> None:
+        """Show the next recording from this camera, instead of from its first view."""
         self._waiting = camera
 
     def begin(self, pair: Pair) -> None:
-        """Put the camera to the first view of a recording."""
+        """Move the camera to the first view of a newly opened recording."""
         waiting, self._waiting = self._waiting, None
         self._blank = waiting is None and len(pair.target.points) == 0
         if waiting:
             self._taken = None
-            self._scene.stand(waiting)
+            self._scene.set_camera(waiting)
         else:
-            self.look(pair, THREE_D)
+            self.set_view(pair, THREE_D)
 
-    def look(self, pair: Pair, view: str) -> None:
-        """Put the camera to the view of this name."""
+    def set_view(self, pair: Pair, view: str) -> None:
+        """Move the camera to the view of this name."""
         aspect = aspect_of(self._client.camera)
         self._taken = (view, aspect, self._scene.place_camera(pair, view, aspect))
 
-    def seen(self, pair: Pair) -> None:
-        """Take the first view anew, now that there is something to see, where there was nothing."""
+    def retry_first_view(self, pair: Pair) -> None:
+        """Compute the first view again if its frame was empty and this one has points."""
         if self._blank and len(pair.target.points):
             self.begin(pair)
 
-    def follow(self, pair: Pair) -> None:
-        """Take the view anew where the picture has another shape than when it was taken."""
+    def adapt_to_window(self, pair: Pair) -> None:
+        """Compute the view again if the aspect ratio has changed and the camera was not moved."""
         if self._taken is None:
             return
         view, aspect, placed = self._taken
         reshaped = abs(aspect_of(self._client.camera) / aspect - 1) > _SAME_SHAPE
         if reshaped and _same(placed, self._scene.camera()):
-            self.look(pair, view)
+            self.set_view(pair, view)
 
 
 def _same(one: Camera, other: Camera) -> bool:

@@ -1,4 +1,4 @@
-"""What the colours of a drawing mean, in words."""
+"""Legend of a drawing as data, independent of how it is shown."""
 
 from dataclasses import dataclass
 
@@ -22,8 +22,8 @@ _MOST_CLUSTERS = 6
 
 
 @dataclass(frozen=True)
-class Mark:
-    """A colour, and what has it."""
+class LegendEntry:
+    """A colour and its meaning."""
 
     colour: Colour
     text: str
@@ -31,7 +31,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Ramp:
-    """Colours from one value to another, with units."""
+    """Colour ramp with the texts at its ends, units included."""
 
     colours: tuple[Colour, ...]
     low: str
@@ -40,15 +40,15 @@ class Ramp:
 
 @dataclass(frozen=True)
 class Legend:
-    """What the colours of a drawing mean.
+    """Meaning of the colours of a drawing.
 
     Attributes:
-        marks: from top to bottom.
-        ramp: of the arrows, None where their colours are marks.
+        entries: from top to bottom.
+        ramp: of the arrows' colours, None unless these encode speed or direction.
         dark: whether the drawing's background is dark.
     """
 
-    marks: tuple[Mark, ...] = ()
+    entries: tuple[LegendEntry, ...] = ()
     ramp: Ramp | None = None
     dark: bool = False
 
@@ -63,49 +63,53 @@ def legend(
     """The legend of a pair as it is drawn.
 
     Args:
-        pair: what is drawn, None where nothing is.
+        pair: that is drawn, None where none is.
         settings: of the drawing.
-        speed_limit: m/s at the end of the ramp of speeds.
-        side: which of A and B the pair is, where the flow of both is drawn; else None.
-        picked: the cluster that is marked.
+        speed_limit: speed at the end of the speed ramp, m/s.
+        side: A or B, the side that the pair belongs to, where the flow of both is drawn; else None.
+        picked: the selected cluster, None for none.
     """
     palette, layers = settings.palette, settings.layers
     if pair is None:
         return Legend(dark=settings.dark)
-    marks = _source(pair, settings, side)
+    entries = _source(pair, settings, side)
     if "Target" in layers:
-        marks.append(Mark(palette.target, "Target"))
+        entries.append(LegendEntry(palette.target, "Target"))
     ramp: Ramp | None = None
     if "Flow" in layers and side:
-        marks += [Mark(palette.side(s), f"Flow of {s}: {_length(settings)}") for s in (A, B)]
+        entries += [
+            LegendEntry(palette.side(s), f"Flow of {s}: {_length(settings)}") for s in (A, B)
+        ]
     elif "Flow" in layers and pair.flow is not None:
         flow, ramp = _flow(pair, settings, speed_limit)
-        marks += flow
+        entries += flow
     if "Truth" in layers and pair.object_velocity is not None:
-        marks.append(Mark(palette.truth, "True velocity"))
+        entries.append(LegendEntry(palette.truth, "True velocity"))
     if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:
-        marks.append(Mark(palette.ghost, "Source moved by the truth"))
+        entries.append(LegendEntry(palette.ghost, "Source moved by the truth"))
     if picked is not None:
-        marks.append(Mark(palette.picked, f"Picked: cluster {picked.index}"))
-    return Legend(tuple(marks), ramp, settings.dark)
+        entries.append(LegendEntry(palette.picked, f"Picked: cluster {picked.index}"))
+    return Legend(tuple(entries), ramp, settings.dark)
 
 
-def _source(pair: Pair, settings: ViewSettings, side: str | None) -> list[Mark]:
+def _source(pair: Pair, settings: ViewSettings, side: str | None) -> list[LegendEntry]:
     palette, layers = settings.palette, settings.layers
     if "Source" not in layers or pair.source is None:
         return []
     source = f"Source of {side}" if side else "Source"
     if pair.flow is None:
-        return [Mark(palette.source, source)]
-    marks = [Mark(palette.source, f"{source}: moving")]
+        return [LegendEntry(palette.source, source)]
+    entries = [LegendEntry(palette.source, f"{source}: moving")]
     if STATIONARY in layers:
-        marks.append(Mark(palette.stationary, f"{source}: stationary"))
+        entries.append(LegendEntry(palette.stationary, f"{source}: stationary"))
     if UNASSIGNED in layers:
-        marks.append(Mark(palette.unassigned, f"{source}: unassigned"))
-    return marks
+        entries.append(LegendEntry(palette.unassigned, f"{source}: unassigned"))
+    return entries
 
 
-def _flow(pair: Pair, settings: ViewSettings, speed_limit: float) -> tuple[list[Mark], Ramp | None]:
+def _flow(
+    pair: Pair, settings: ViewSettings, speed_limit: float
+) -> tuple[list[LegendEntry], Ramp | None]:
     assert pair.flow is not None
     palette = settings.palette
     if settings.arrow_colours == BY_SPEED:
@@ -115,11 +119,11 @@ def _flow(pair: Pair, settings: ViewSettings, speed_limit: float) -> tuple[list[
         return [], Ramp(WHEEL, "Flow: −180°", "180° from x")
     if settings.arrow_colours == BY_CLUSTER:
         moving = np.unique(pair.flow.cluster[pair.flow.label == Label.MOVING])
-        marks = [Mark(palette.category(i), f"Flow: cluster {i}") for i in map(int, moving)]
-        more = len(marks) - _MOST_CLUSTERS
-        rest = [Mark(palette.unassigned, f"Flow: {more} more clusters")] if more > 0 else []
-        return marks[:_MOST_CLUSTERS] + rest, None
-    return [Mark(palette.flow, f"Flow: {_length(settings)}")], None
+        entries = [LegendEntry(palette.category(i), f"Flow: cluster {i}") for i in map(int, moving)]
+        more = len(entries) - _MOST_CLUSTERS
+        rest = [LegendEntry(palette.unassigned, f"Flow: {more} more clusters")] if more > 0 else []
+        return entries[:_MOST_CLUSTERS] + rest, None
+    return [LegendEntry(palette.flow, f"Flow: {_length(settings)}")], None
 
 
 def _length(settings: ViewSettings) -> str:

@@ -7,11 +7,11 @@ from app.scene.legend import Legend, Ramp
 
 
 def html(legend: Legend) -> str:
-    """A legend as a box in the lower left corner of the scene."""
-    if not legend.marks and legend.ramp is None:
+    """HTML of a box in the lower left corner of the scene, "" for an empty legend."""
+    if not legend.entries and legend.ramp is None:
         return ""
     ground, ink = ("#1c1d20cc", "#e6e7ea") if legend.dark else ("#ffffffd9", "#26282c")
-    rows = "".join(_row(_dot(mark.colour), mark.text) for mark in legend.marks)
+    rows = "".join(_row(_dot(entry.colour), entry.text) for entry in legend.entries)
     if legend.ramp:
         rows += _ramp(legend.ramp)
     return (

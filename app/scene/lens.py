@@ -1,4 +1,4 @@
-"""What depends on how far the camera is from what it looks at."""
+"""Sizes and near plane that follow from the camera's distance and field of view."""
 
 from dataclasses import dataclass
 
@@ -7,26 +7,26 @@ import viser
 from numpy.typing import NDArray
 
 FOV = np.radians(38.0)
-"""Vertical field of view: narrow, so that what is near is not much larger than what is far."""
+"""Vertical field of view, rad: narrow, for little perspective distortion."""
 
 WIDE_FOV = np.radians(70.0)
-"""For a camera that stands in the middle of things."""
+"""Vertical field of view of a camera on the robot, amid the points, rad."""
 
-_KEPT = 1.5  # metres around what the camera looks at, within which everything is drawn
-_CLEARED = 0.45  # of the way to what the camera looks at, at most
+_KEPT = 1.5  # metres in front of the look-at point that the near plane never cuts
+_CLEARED = 0.45  # maximum distance of the near plane, as a share of that of the look-at point
 
 
 def aspect_of(camera: viser.CameraHandle) -> float:
-    """Width by height of the scene in the browser whose camera it is."""
+    """Aspect ratio, width by height, of the scene in the camera's browser."""
     return camera.image_width / max(camera.image_height, 1)
 
 
 @dataclass(frozen=True)
 class Lens:
-    """How a camera sees.
+    """Viewing distance and field of view of a camera.
 
     Attributes:
-        distance: metres from the camera to what it looks at.
+        distance: metres from the camera to its look-at point.
         fov: vertical field of view, rad.
     """
 
@@ -42,22 +42,22 @@ class Lens:
     def between(
         cls, position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float
     ) -> "Lens":
-        """The lens of a camera at one point (3,) that looks at another one (3,)."""
+        """The lens of a camera at `position` (3,) that looks at `look_at` (3,), metres."""
         return cls(float(np.linalg.norm(look_at - position)), float(fov))
 
     @property
     def height(self) -> float:
-        """Metres from the bottom of the picture to its top, at what the camera looks at."""
+        """Height of the picture at the distance of the look-at point, metres."""
         return 2 * self.distance * float(np.tan(self.fov / 2))
 
     @property
     def near(self) -> float:
-        """Metres from the camera within which nothing is drawn.
+        """Distance of the near plane, metres.
 
-        A wall's points just before the camera would be as large as a hand, and hide what matters.
+        Points of a wall just in front of the camera would cover most of the picture.
         """
         return max(0.01, min(_CLEARED * self.distance, self.distance - _KEPT))
 
     def similar(self, other: "Lens") -> bool:
-        """Whether nobody could tell the two apart."""
+        """Whether sizes drawn for one lens suit the other."""
         return bool(np.isclose(self.height, other.height, rtol=0.04))

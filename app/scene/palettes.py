@@ -1,4 +1,4 @@
-"""Sets of colours: as in the paper, or such that colour-blind readers can tell them apart."""
+"""Colour palettes, as in the paper or colour-blind safe, each for a light and a dark page."""
 
 from dataclasses import dataclass, replace
 
@@ -10,7 +10,7 @@ from app.scene.colours import FLOW, FRUSTUM, PICKED, SOURCE, TARGET, TRUTH, Colo
 
 PAPER, COLOUR_BLIND = "As in the paper", "Colour-blind safe"
 PALETTES = (PAPER, COLOUR_BLIND)
-"""What can be chosen, in the order in which it is listed."""
+"""Names of all palettes, in the order of the list on the page."""
 
 
 @dataclass(frozen=True)
@@ -18,20 +18,20 @@ class Palette:
     """The colours of one drawing.
 
     Attributes:
-        source: of points that move, and of all source points where nothing was estimated.
-        stationary: of source points that rest.
-        unassigned: of source points of which nothing is known.
+        source: of moving source points, and of all source points without an estimate.
+        stationary: of source points labelled Stationary.
+        unassigned: of source points labelled Unassigned.
         target: of the target.
-        flow: of arrows, and of the frustum of a sensor that sees something moving.
-        second: of the arrows of B where A and B are drawn together; those of A are as `flow`.
+        flow: of arrows, and of the frustums of sensors that see something moving.
+        second: of B's arrows where A and B are drawn together; A's have `flow`.
         picked: of the picked cluster.
-        truth: of the truth's arrow.
-        ghost: of the place where the truth says that a source point is now.
+        truth: of the arrow of the true velocity.
+        ghost: of moving source points displaced by their true motion.
         frustum: of the sensors that see nothing moving.
-        grid: of the grid's thin lines and of its thick ones.
-        categories: for things of which there may be several, such as clusters.
-        ramp: from little to much.
-        light: how bright the lamps are, 1 for full light; too much of it makes colours pale.
+        grid: of the grid's thin and thick lines.
+        categories: for clusters and other numbered things.
+        ramp: stops of the sequential colour map, from low to high.
+        light: brightness of the lamps, 1 for full; a dark page needs less, or colours turn pale.
     """
 
     source: Colour
@@ -50,20 +50,20 @@ class Palette:
     light: float
 
     def side(self, name: str) -> Colour:
-        """The colour of the flow of A or of B where both are drawn."""
+        """Colour of the flow of A or B where both are drawn."""
         return self.flow if name == A else self.second
 
     def category(self, index: int) -> Colour:
-        """The colour of thing number `index`; they repeat."""
+        """Categorical colour number `index`, repeating after the last."""
         return self.categories[index % len(self.categories)]
 
     def along_ramp(self, parts: NDArray[np.float64]) -> NDArray[np.uint8]:
-        """Colours (N, 3) at parts (N,) of the ramp, 0 to 1."""
+        """Colours (N, 3) at positions (N,) along the ramp, 0 to 1."""
         return blend(self.ramp, parts)
 
 
 def blend(stops: tuple[Colour, ...], parts: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Colours (N, 3) at parts (N,), 0 to 1, of a way through evenly spaced stops."""
+    """Colours (N, 3) at positions (N,), 0 to 1, interpolated between evenly spaced stops."""
     where = np.linspace(0.0, 1.0, len(stops))
     channels = [np.interp(parts, where, [stop[i] for stop in stops]) for i in range(3)]
     return np.stack(channels, axis=-1).round().astype(np.uint8)
@@ -72,7 +72,7 @@ def blend(stops: tuple[Colour, ...], parts: NDArray[np.float64]) -> NDArray[np.u
 _LIGHT_GRID = ((228, 231, 236), (200, 205, 214))
 _DARK_GRID = ((42, 45, 51), (66, 71, 80))
 
-# Hues of the set that Okabe and Ito made for colour-blind readers, as are those of the second set.
+# Colour-blind safe hues of Okabe and Ito, as in the second palette.
 _CATEGORIES = (
     (0, 114, 178),
     (230, 159, 0),
@@ -82,7 +82,7 @@ _CATEGORIES = (
     (86, 180, 233),
     (120, 94, 50),
 )
-# From dark to bright in steps that look even; on white it ends before it becomes too bright.
+# Roughly even in perceived lightness; on white it stops before yellow becomes invisible.
 _RAMP = ((62, 30, 120), (52, 94, 160), (22, 140, 130), (90, 180, 60), (225, 190, 20))
 _BRIGHT_RAMP = ((110, 80, 200), (70, 130, 210), (40, 180, 165), (130, 215, 90), (253, 225, 60))
 
@@ -147,5 +147,5 @@ _ALL = {
 
 
 def palette(name: str, dark: bool) -> Palette:
-    """The palette of this name, for a dark page or a light one."""
+    """The palette of this name for a dark or a light page."""
     return _ALL[name, dark]

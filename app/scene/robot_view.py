@@ -1,11 +1,11 @@
-"""The robot: its links' meshes under frames that follow the links."""
+"""Drawing of the robot: one frame per link, with the link's meshes below it."""
 
 from collections.abc import Mapping
 
 import numpy as np
 import viser
 
-from app.scene.placing import UNKNOWN, node_name, place
+from app.scene.node_poses import UNKNOWN, node_name, set_poses
 from app.scene.shapes import RobotShape
 from app.scene.stage import FIXED
 from robot_assets import Transform
@@ -14,7 +14,7 @@ ROOT = f"{FIXED}/robot"
 
 
 class RobotView:
-    """Draws a robot; the meshes go to the browser once and are only moved afterwards."""
+    """Draws a robot; its meshes are sent once, afterwards only poses."""
 
     def __init__(self, scene: viser.SceneApi, shape: RobotShape) -> None:
         self.digest = shape.digest
@@ -30,9 +30,9 @@ class RobotView:
     def show(self, link_poses: Mapping[str, Transform]) -> None:
         """Move the links to their poses T_fixed_link; a link without one is hidden."""
         poses = [link_poses.get(link, UNKNOWN) for link in self._links]
-        place(list(self._links.values()), np.array(poses).reshape(-1, 4, 4))
+        set_poses(list(self._links.values()), np.array(poses).reshape(-1, 4, 4))
 
     def remove(self) -> None:
-        """Take the robot out of the scene."""
+        """Remove the robot from the scene."""
         for frame in self._links.values():
             frame.remove()

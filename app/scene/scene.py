@@ -1,4 +1,4 @@
-"""What a person sees: robot, sensors, clouds and flow of one frame."""
+"""3D scene of one pair: robot, sensors, clouds, flow and truth."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -30,7 +30,7 @@ from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
 from app.scene.shapes import robot_shape
 from app.scene.stage import AXES, GRID, Stage, upright
 from app.scene.truth import ghost, truth_arrow
-from app.scene.views import ROBOT, THREE_D, Film, named_view
+from app.scene.views import ROBOT, THREE_D, Projection, named_view
 from estimator import ClusterResult, Label
 from recordings import Recording
 
@@ -45,20 +45,20 @@ _NODES = {
     "Truth ghost": (GHOST_NODE,),
     "Grid and axes": (GRID, AXES),
 }
-"""{layer: the nodes that it switches}."""
+"""{layer: nodes that it shows or hides}."""
 
 _LABELS = {STATIONARY: Label.STATIONARY, UNASSIGNED: Label.UNASSIGNED}
-"""{layer: the label of the source points that it switches}."""
+"""{layer: label of the source points that it shows or hides}."""
 
-_REFERENCE_HEIGHT = 720  # pixels of the picture that sizes in pixels are meant for
+_REFERENCE_HEIGHT = 720  # pixels, the height of the picture that sizes in pixels refer to
 
 
 class Scene:
-    """Draws on a canvas. Everything is drawn by one thread.
+    """Draws pairs of a recording on a canvas; used by one thread.
 
     Args:
-        canvas: a browser client, or what is exported without one.
-        settings: to begin with.
+        canvas: a browser client, or a server for exports.
+        settings: initial ones.
     """
 
     def __init__(self, canvas: Canvas, settings: ViewSettings) -> None:
@@ -71,7 +71,7 @@ class Scene:
         self._second: Pair | None = None
         self._side = A
         self._marked: ClusterResult | None = None
-        self._turn = np.eye(3)
+        self._R_drawing_fixed = np.eye(3)
         self._speed_limit = 0.0
         self._stage = Stage(canvas.scene, settings.palette)
         for root in (ROOT, SENSORS, FRUSTUMS):
@@ -81,7 +81,7 @@ class Scene:
         self._show_layers()
 
     def open(self, recording: Recording) -> None:
-        """Prepare the scene for a recording; a robot that looks the same is kept."""
+        """Prepare the scene for a recording; the meshes of an identical robot are kept."""
         shape = robot_shape(recording.robot) if recording.robot else None
         if self._robot and (shape is None or shape.digest != self._robot.digest):
             self._robot.remove()
@@ -91,17 +91,17 @@ class Scene:
         if self._sensors:
             self._sensors.remove()
         self._sensors = SensorsView(self._canvas.scene, recording.sensors)
-        self._turn = upright(recording.fixed_frame)
-        self._stage.turn(self._turn)
+        self._R_drawing_fixed = upright(recording.fixed_frame)
+        self._stage.orient(self._R_drawing_fixed)
         self._shown = None
         self._speed_limit = 0.0
 
     def place_camera(self, pair: Pair, view: str = THREE_D, aspect: float = 16 / 9) -> Camera:
-        """Put the camera where the pair and its sensors are seen well, and say where that is.
+        """Move the camera to a named view of a pair, and return its pose.
 
         Args:
-            pair: what is to be seen.
-            view: the view's name.
+            pair: to be shown.
+            view: name of the view.
             aspect: width by height of the picture.
         """
         camera = self._canvas.camera
@@ -109,31 +109,33 @@ class Scene:
         camera.fov = fov
         camera.position = placed.position
         camera.look_at = placed.look_at
-        # The browser may be telling where its camera was, at this very moment.
-        self._focus(Lens.between(placed.position, placed.look_at, fov))
+        # Not read back from the camera: the browser may be reporting its old pose right now.
+        self._set_lens(Lens.between(placed.position, placed.look_at, fov))
         return _camera(placed.position, placed.look_at, fov)
 
     def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
-        """Where a camera stands for the view of this name, and its vertical field of view, rad."""
+        """Camera pose of a named view, and its vertical field of view in rad."""
         camera = self._canvas.camera
-        film = Film(WIDE_FOV if name == ROBOT else FOV, aspect)
+        projection = Projection(WIDE_FOV if name == ROBOT else FOV, aspect)
         before = View(np.asarray(camera.position), np.asarray(camera.look_at))
-        return named_view(name, pair, self._turn, film, before), film.fov
+        return named_view(name, pair, self._R_drawing_fixed, projection, before), projection.fov
 
     @property
     def legend(self) -> Legend:
-        """What the colours mean."""
+        """Legend of the current drawing."""
         side = None if self._second is None else self._side
         return legend(self._shown, self._settings, self._speed_limit, side, self._marked)
 
     @contextmanager
-    def posed(self, view: View, fov: float, larger: float, height: int) -> Iterator[None]:
-        """Draw in sizes that suit a picture, and as before afterwards.
+    def sized_for_picture(
+        self, view: View, fov: float, larger: float, height: int
+    ) -> Iterator[None]:
+        """Context with sizes, line widths and near plane that suit a picture.
 
         Args:
-            view: where it is taken from.
+            view: of the picture.
             fov: vertical field of view, rad.
-            larger: how many times larger points have to be told to the page.
+            larger: factor on the size of points, for the picture instead of the page's window.
             height: of the picture, pixels.
         """
         lens, way = Lens.between(view.position, view.look_at, fov), view.look_at - view.position
@@ -141,9 +143,9 @@ class Scene:
         self._thicken(height / _REFERENCE_HEIGHT)
         try:
             eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
-            # A picture that is asked for has no near plane of its own.
+            # viser's renders ignore the camera's near plane.
             picked = [self._selection.points] if self._selection else []
-            with self._clouds.cleared(eye, forward / np.linalg.norm(forward), lens.near, picked):
+            with self._clouds.clipped(eye, forward / np.linalg.norm(forward), lens.near, picked):
                 yield
         finally:
             self._thicken(1.0)
@@ -151,23 +153,23 @@ class Scene:
                 self._fit(self._lens)
 
     def camera(self) -> Camera:
-        """Where the camera stands."""
+        """Current camera."""
         camera = self._canvas.camera
         return _camera(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
 
-    def stand(self, place: Camera) -> None:
-        """Put the camera there."""
+    def set_camera(self, place: Camera) -> None:
+        """Set the camera."""
         camera = self._canvas.camera
         camera.fov, camera.position, camera.look_at = place.fov, place.position, place.look_at
         position, look_at = np.array(place.position), np.array(place.look_at)
-        self._focus(Lens.between(position, look_at, place.fov))
+        self._set_lens(Lens.between(position, look_at, place.fov))
 
-    def focus(self) -> None:
-        """Draw in sizes that suit where the camera has moved to, once it was placed."""
+    def adapt_sizes(self) -> None:
+        """Adapt sizes to a camera that has moved; no effect before it was first placed."""
         if self._lens:
-            self._focus(Lens.of(self._canvas.camera))
+            self._set_lens(Lens.of(self._canvas.camera))
 
-    def _focus(self, lens: Lens) -> None:
+    def _set_lens(self, lens: Lens) -> None:
         if self._lens is None or not self._lens.similar(lens):
             self._lens = lens
             self._fit(lens)
@@ -179,13 +181,13 @@ class Scene:
         side: str = A,
         picked: ClusterResult | None = None,
     ) -> None:
-        """Draw a pair; what has not changed since the last one is not sent again.
+        """Draw a pair; only changes since the last one are sent.
 
         Args:
-            pair: to be drawn.
-            second: of the same frame, whose flow is drawn too, each in a colour of its own.
-            side: which of A and B the first one is, where both are drawn.
-            picked: cluster of the pair that is marked, None for none.
+            pair: to draw.
+            second: pair of the same frame whose flow is drawn too, in another colour.
+            side: A or B, the side of `pair` where both are drawn.
+            picked: the picked cluster of the pair, None for none.
         """
         before, self._shown, self._second, self._side = self._shown, pair, second, side
         if before is None or before.target is not pair.target:
@@ -199,21 +201,21 @@ class Scene:
         self._show_flow(pair)
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
-        """Mark a cluster of a pair as picked, or none, and draw the other source points."""
+        """Draw a cluster of a pair as picked, or none, and the other source points as usual."""
         self._marked = cluster
         if self._selection is None and cluster is not None:
             palette = self._settings.palette
             self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
         if self._selection:
-            self._selection.show(pair, cluster, self._turn[2])
+            self._selection.show(pair, cluster, self._R_drawing_fixed[2])
         self._show_source(pair)
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
-        """A point or a direction (3,) of the drawing in the recording's fixed frame."""
-        return self._turn.T @ vector
+        """Transform a point or direction (3,) of the drawing into the recording's fixed frame."""
+        return self._R_drawing_fixed.T @ vector
 
     def change(self, settings: ViewSettings) -> None:
-        """Draw the same pair with other settings."""
+        """Redraw the current pair with other settings."""
         before, self._settings = self._settings, settings
         if settings.palette != before.palette:
             self._clouds.paint(settings.palette)
@@ -229,8 +231,8 @@ class Scene:
             self._show_layers()
 
     def _fit(self, lens: Lens) -> None:
-        # What the browser tells of its camera may be older than what it was sent, and viser does
-        # not send what it believes to be there: a value that nobody believes goes before.
+        # viser does not send a value equal to the last reported one, which may be outdated: a
+        # slightly different value first makes sure that the right one is sent.
         for near in (1.001 * lens.near, lens.near):
             self._canvas.camera.near = near
         self._size(lens, 1.0)
@@ -241,14 +243,14 @@ class Scene:
             self._selection.set_point_size(self._clouds.radius)
 
     def _thicken(self, factor: float) -> None:
-        """Draw lines this many times thicker: their thickness is one in pixels."""
+        """Multiply line widths, which are in pixels."""
         if self._sensors:
             self._sensors.thicken(factor)
         if self._selection:
             self._selection.thicken(factor)
 
     def _show_source(self, pair: Pair) -> None:
-        """Draw the source in the colours of its labels, but for those that are switched off."""
+        """Draw the source coloured by label, without hidden labels and picked points."""
         if pair.source is None:
             self._clouds.show_source(np.zeros((0, 3)), np.zeros(3, dtype=np.uint8))
             return
@@ -268,7 +270,9 @@ class Scene:
         seeing: list[int] = []
         if pair.source and pair.flow:
             if self._second is None:
-                colours = arrow_colours(pair, self._settings, self._speed_limit, self._turn)
+                colours = arrow_colours(
+                    pair, self._settings, self._speed_limit, self._R_drawing_fixed
+                )
             else:
                 colours = np.tile(
                     np.array(palette.side(self._side), np.uint8), (len(pair.flow.label), 1)
@@ -281,7 +285,7 @@ class Scene:
         if self._sensors:
             self._sensors.highlight(seeing, palette)
         self._show_second_flow(seconds)
-        self._clouds.show_truth(*truth_arrow(pair, self._turn[2]), seconds)
+        self._clouds.show_truth(*truth_arrow(pair, self._R_drawing_fixed[2]), seconds)
         self._clouds.show_ghost(ghost(pair))
 
     def _show_second_flow(self, seconds: float) -> None:

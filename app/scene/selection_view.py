@@ -1,4 +1,4 @@
-"""The picked cluster: its points drawn larger, a box around them, and its name."""
+"""Drawing of the picked cluster: larger points, a bounding box and a label."""
 
 import itertools
 
@@ -14,7 +14,7 @@ from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"
 
-_LARGER = 1.5  # radius of a picked point, against that of the others
+_LARGER = 1.5  # radius of a picked point, relative to the others
 _THICKNESS = 1.5  # pixels, of the box's lines
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
@@ -28,7 +28,7 @@ _EDGES = np.array(
 
 
 class SelectionView:
-    """Draws what is picked, and nothing where nothing is.
+    """Draws the picked cluster, if any.
 
     Attributes:
         points: the picked source points.
@@ -55,11 +55,11 @@ class SelectionView:
         self._label = scene.add_label(f"{PICKED_NODE}/label", "", anchor="bottom-center")
 
     def show(self, pair: Pair, cluster: ClusterResult | None, up: NDArray[np.float64]) -> None:
-        """Mark a cluster of a pair, or nothing for None.
+        """Draw a cluster of a pair as picked, or none.
 
         Args:
-            pair: whose flow has the cluster.
-            cluster: what is picked.
+            pair: whose flow contains the cluster.
+            cluster: to draw, None for none.
             up: (3,) unit vector in the fixed frame.
         """
         if cluster is None or pair.source is None:
@@ -74,21 +74,21 @@ class SelectionView:
         self._frame.visible = True
 
     def paint(self, palette: Palette) -> None:
-        """Draw in the colour of a palette."""
+        """Apply a palette."""
         self.points.colors = np.array(palette.picked, dtype=np.uint8)
         self._box.colors = np.array(palette.picked, dtype=np.uint8)
 
     def thicken(self, factor: float) -> None:
-        """Draw the box with lines this many times thicker."""
+        """Multiply the line width of the box."""
         self._box.thickness = factor * _THICKNESS
 
     def set_point_size(self, metres: float) -> None:
-        """Draw larger points than those of this radius."""
+        """Set the radius of the other points; picked ones are drawn larger."""
         self.points.point_size = _LARGER * metres
 
 
 def box_around(points: NDArray[np.float64]) -> NDArray[np.float32]:
-    """The edges (12, 2, 3) of a box along the axes around points (N, 3), at least one."""
+    """Edges (12, 2, 3) of the axis-aligned bounding box of points (N, 3), N >= 1, with a margin."""
     low, high = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
     corners = low + _CORNERS * (high - low)
     return corners[_EDGES].astype(np.float32)

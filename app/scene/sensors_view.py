@@ -1,4 +1,4 @@
-"""The sensors: red boxes and rings on the robot, and a frustum for each field of view."""
+"""Drawing of the sensors: boxes and rings on the robot, and a frustum per field of view."""
 
 from collections.abc import Iterable, Sequence
 
@@ -7,21 +7,28 @@ import viser
 from numpy.typing import NDArray
 
 from app.scene.colours import FRUSTUM, SENSOR
+from app.scene.node_poses import node_name, set_poses
 from app.scene.palettes import Palette
-from app.scene.placing import node_name, place
 from app.scene.shapes import ring_through
 from app.scene.stage import FIXED
 from recordings import RecordedSensor
 
 SENSORS = f"{FIXED}/sensors"
 FRUSTUMS = f"{FIXED}/frustums"
-_BODY = (0.018, 0.012, 0.010)  # metres, wide enough to be seen on the robot
-_THICKNESS, _SEEING = 1.0, 2.2  # pixels, of a frustum's lines, and where it sees something moving
+_BODY = (
+    0.018,
+    0.012,
+    0.010,
+)  # metres, larger than the real chip so that it is visible on the robot
+_THICKNESS, _SEEING = (
+    1.0,
+    2.2,
+)  # line widths of frustums, pixels: usual, and where something moves in them
 _DEPTH = 0.11  # metres from a sensor to the base of its frustum
 
 
 class SensorsView:
-    """Draws the sensors of a recording; they follow T_fixed_sensor frame by frame."""
+    """Draws the sensors of a recording at their poses T_fixed_sensor."""
 
     def __init__(self, scene: viser.SceneApi, sensors: Sequence[RecordedSensor]) -> None:
         self._scene = scene
@@ -48,14 +55,14 @@ class SensorsView:
 
     def show(self, poses: NDArray[np.float64]) -> None:
         """Move the sensors to their poses T_fixed_sensor (S, 4, 4), NaN where not known."""
-        place(self._bodies, poses)
-        place(self._frustums, poses)
+        set_poses(self._bodies, poses)
+        set_poses(self._frustums, poses)
         if not self._ringed and np.isfinite(poses).all():
             self._add_rings(poses)
             self._ringed = True
 
     def highlight(self, seeing: Iterable[int], palette: Palette) -> None:
-        """Draw the frustums of those sensors that see something moving as the flow is."""
+        """Highlight the frustums of the sensors with these indices, which see something moving."""
         seeing = set(seeing)
         for index, frustum in enumerate(self._frustums):
             sees = index in seeing
@@ -63,18 +70,18 @@ class SensorsView:
             frustum.thickness = self._thicker * (_SEEING if sees else _THICKNESS)
 
     def thicken(self, factor: float) -> None:
-        """Draw frustums with lines this many times thicker."""
+        """Multiply the line width of the frustums."""
         for frustum in self._frustums:
             frustum.thickness *= factor / self._thicker
         self._thicker = factor
 
     def remove(self) -> None:
-        """Take the sensors out of the scene."""
+        """Remove the sensors from the scene."""
         for node in (*self._bodies, *self._frustums):
             node.remove()
 
     def _add_rings(self, poses: NDArray[np.float64]) -> None:
-        """Add a band for each ring, fixed to the ring's first sensor."""
+        """Add a torus per ring, as a child of the ring's first sensor."""
         for ring in {sensor.ring: None for sensor in self._sensors if sensor.ring}:
             members = [i for i, sensor in enumerate(self._sensors) if sensor.ring == ring]
             band = ring_through(poses[members, :3, 3])
@@ -92,7 +99,7 @@ def _add_frustum(
         node,
         fov=2 * float(np.arctan(half_height)),
         aspect=half_width / half_height,
-        # viser scales a frustum by its volume; this is what makes it _DEPTH long.
+        # viser scales a frustum by its volume; this scale makes it _DEPTH long.
         scale=_DEPTH * float(np.cbrt(half_width * half_height / 3)),
         thickness=_THICKNESS,
         thickness_units="screen",
@@ -104,7 +111,7 @@ def _add_frustum(
 
 
 def half_extents(directions: NDArray[np.float64]) -> tuple[float, float]:
-    """Half width and half height of a field of view at a depth of 1.
+    """Half width and half height of a field of view at unit depth.
 
     Args:
         directions: (rows, columns, 3) through the zones' centres, in the optical frame.

@@ -1,4 +1,4 @@
-"""How things are drawn, whatever was estimated."""
+"""Settings of the drawing, independent of the estimate."""
 
 from dataclasses import dataclass
 
@@ -19,26 +19,25 @@ LAYERS = (
     "Truth ghost",
     "Grid and axes",
 )
-"""What can be shown and hidden, in the order in which it is listed."""
+"""Layers that can be hidden, in the order of the list on the page."""
 
 ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER = "One colour", "Speed", "Direction", "Cluster"
 ARROW_COLOURS = (ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER)
-"""What the colour of an arrow can say."""
+"""Quantities that an arrow's colour can encode."""
 
 
 @dataclass(frozen=True)
 class ViewSettings:
-    """How things are drawn.
+    """Settings of the drawing.
 
     Attributes:
-        arrow_scale: seconds; an arrow is as long as the way that is gone in them.
-        point_size: diameter of a point at what the camera looks at, in pixels of a picture that
-            is 720 pixels high.
-        arrow_colours: what the colour of an arrow says, one of `ARROW_COLOURS`.
+        arrow_scale: seconds; an arrow's length is the distance covered in this time.
+        point_size: diameter of a point at the look-at point, pixels of a picture 720 pixels high.
+        arrow_colours: quantity that an arrow's colour encodes, one of `ARROW_COLOURS`.
         colours: name of the palette.
         dark: whether the page is dark.
         legend: whether a legend lies over the scene.
-        layers: those that are shown.
+        layers: that are visible.
     """
 
     arrow_scale: float = 0.5

@@ -1,4 +1,4 @@
-"""Meshes in the form in which they go to the browser: small, and made once."""
+"""Meshes prepared for the browser: welded, split by colour, and cached."""
 
 import hashlib
 from dataclasses import dataclass
@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 from app.scene.colours import Colour
 from robot_assets import Robot
 
-_DARKEST = 84  # of a colour: what is darker cannot be told from a dark background
-# Faces that meet at a sharper angle than this keep an edge; the others are shaded smoothly.
+_DARKEST = 84  # lowest channel value: darker meshes vanish before a dark background
+# Faces that meet at a larger angle than this keep a sharp edge; others are smooth-shaded.
 _EDGE = np.radians(35.0)
 
 
 @dataclass(frozen=True)
 class Part:
-    """A piece of one colour.
+    """A mesh of one colour.
 
     Attributes:
         vertices: (V, 3) metres.
-        faces: (F, 3) rows of the vertices.
+        faces: (F, 3) indices into the vertices.
         colour: red, green, blue, 0 to 255.
     """
 
@@ -33,11 +33,11 @@ class Part:
 
 @dataclass(frozen=True)
 class RobotShape:
-    """What a robot looks like.
+    """Visual meshes of a robot.
 
     Attributes:
         links: {link: its parts in the link's frame}.
-        digest: equal where two robots look the same.
+        digest: of the meshes; equal for robots that look the same.
     """
 
     links: dict[str, tuple[Part, ...]]
@@ -46,7 +46,7 @@ class RobotShape:
 
 @lru_cache(maxsize=4)
 def robot_shape(robot: Robot) -> RobotShape:
-    """The visual meshes of a robot, a part for each link and colour, their vertices welded."""
+    """The visual meshes of a robot, a part per link and colour, vertices welded."""
     links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
     digest = hashlib.sha256()
     for link, parts in links.items():
@@ -57,9 +57,9 @@ def robot_shape(robot: Robot) -> RobotShape:
 
 
 def ring_through(positions: NDArray[np.float64]) -> trimesh.Trimesh | None:
-    """A band, a torus, through three or more points (N, 3) on a circle, None where there are fewer.
+    """Torus through points (N, 3) on a circle, None for fewer than three.
 
-    The points may lie in any plane; the torus passes a little inside them.
+    The circle may lie in any plane; the torus passes slightly inside the points.
     """
     if len(positions) < 3:
         return None

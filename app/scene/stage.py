@@ -1,4 +1,4 @@
-"""What stands in every scene: light, grid and axes, and which way is up."""
+"""Parts common to every scene: lights, grid, fixed frame and its axes."""
 
 import numpy as np
 import viser
@@ -10,14 +10,14 @@ from app.scene.palettes import Palette
 _Lamp = viser.HemisphereLightHandle | viser.DirectionalLightHandle
 
 FIXED = "/fixed"
-"""The node of the fixed frame: whatever a recording holds is drawn below it."""
+"""Node of the fixed frame, the parent of everything drawn from a recording."""
 
 GRID = "/grid"
 AXES = f"{FIXED}/axes"
 
 
 class Stage:
-    """Light, a grid, and the fixed frame with its axes."""
+    """Lights, a grid, and the fixed frame with its axes."""
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
         self._lamps = _light(scene)
@@ -38,20 +38,20 @@ class Stage:
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
-        """Draw the grid in the colours of a palette, and shine as brightly as it wants."""
+        """Apply a palette's grid colours and brightness."""
         self._grid.cell_color, self._grid.section_color = palette.grid
         for lamp, intensity in self._lamps:
             lamp.intensity = palette.light * intensity
 
-    def turn(self, R_drawing_fixed: NDArray[np.float64]) -> None:
-        """Draw the fixed frame turned by a rotation (3, 3)."""
+    def orient(self, R_drawing_fixed: NDArray[np.float64]) -> None:
+        """Set the orientation (3, 3) of the fixed frame in the drawing."""
         self._fixed.wxyz = vtf.SO3.from_matrix(R_drawing_fixed).wxyz
 
 
 def upright(fixed_frame: str) -> NDArray[np.float64]:
-    """R_drawing_fixed (3, 3), whose drawing has its z axis up.
+    """R_drawing_fixed (3, 3), from the fixed frame into a drawing whose z axis points up.
 
-    An optical frame has z forward and y down (REP 103); every other one has z up already.
+    Optical frames have z forward and y down (REP 103); all others have z up already.
     """
     if fixed_frame.endswith("optical_frame"):
         return np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
@@ -59,10 +59,10 @@ def upright(fixed_frame: str) -> NDArray[np.float64]:
 
 
 def _light(scene: viser.SceneApi) -> list[tuple[_Lamp, float]]:
-    """Even light from the sky and two lamps, cheaper than an environment map and its shadows.
+    """Add a hemisphere light and two lamps, cheaper than an environment map and its shadows.
 
     Returns:
-        Each lamp, and how bright it is in full light.
+        Each lamp and its intensity at full light.
     """
     scene.configure_environment_map(None)
     scene.configure_default_lights(enabled=False)

@@ -1,12 +1,12 @@
-"""How the page is dressed."""
+"""Light and dark theme of the page."""
 
 import viser
 
 from app.scene.colours import BRAND, BRIGHT_BRAND, Colour
 
 
-def dress(gui: viser.GuiApi, dark: bool) -> None:
-    """Dress the page in light or dark."""
+def apply_theme(gui: viser.GuiApi, dark: bool) -> None:
+    """Apply the light or the dark theme to the page."""
     gui.configure_theme(
         dark_mode=dark,
         show_logo=False,
@@ -16,5 +16,5 @@ def dress(gui: viser.GuiApi, dark: bool) -> None:
 
 
 def background(dark: bool) -> Colour:
-    """What is behind the scene in a dark page or a light one."""
+    """Background colour of the scene on a dark or a light page."""
     return (20, 20, 20) if dark else (255, 255, 255)

@@ -1,4 +1,4 @@
-"""What is drawn of the truth."""
+"""Geometry of the truth's arrow and ghost."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,16 +6,16 @@ from numpy.typing import NDArray
 from app.analysis.pairs import Pair
 from estimator import MOVING_SPEED
 
-_ABOVE = 0.12  # metres from what moves to the truth's arrow
+_ABOVE = 0.12  # height of the arrow above the moving points, metres
 
 
 def truth_arrow(
     pair: Pair, up: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Where the truth's arrow starts, just above what moves, and its velocity; (3,) each.
+    """Tail (3,) and velocity (3,) of the truth's arrow, just above the moving points.
 
     Args:
-        pair: whose truth it is.
+        pair: with its truth; without one, the velocity is None.
         up: unit vector in the fixed frame.
     """
     velocity = pair.object_velocity
@@ -28,7 +28,7 @@ def truth_arrow(
 
 
 def ghost(pair: Pair) -> NDArray[np.float64]:
-    """Where the truth says that the moving source points are by now, (M, 3)."""
+    """Moving source points displaced by their true motion over the interval, (M, 3)."""
     if pair.source is None or pair.truth is None or pair.truth.points is None:
         return np.zeros((0, 3))
     way = pair.interval * pair.truth.points

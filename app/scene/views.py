@@ -1,4 +1,4 @@
-"""Where the camera can stand: views that have a name."""
+"""Named views: camera poses computed from a pair."""
 
 from dataclasses import dataclass
 
@@ -6,22 +6,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
-from app.scene.first_view import View, corners, first_view, spread
+from app.scene.first_view import View, first_view, near_corners, percentile_corners
 from app.scene.settings import ViewSettings
 from estimator import Label
 
 THREE_D, TOP, FRONT, ROBOT, FIT = "3D", "Top", "Front", "Robot", "Fit"
 VIEWS = (THREE_D, TOP, FRONT, ROBOT, FIT)
-"""At a slant; from above; from before the robot; from the robot's skin; everything."""
+"""Slanted; from above; from the front; from a sensor; all points, in the current direction."""
 
 _MARGIN = 1.12
 _ARROW_SCALE = ViewSettings().arrow_scale
-_LEAN = 1e-3  # how far a view from above leans back, so that it is known which way is up in it
+_LEAN = 1e-3  # tilt of the view from above, which keeps its up direction defined
 
 
 @dataclass(frozen=True)
-class Film:
-    """What a camera takes in.
+class Projection:
+    """Perspective projection of a camera.
 
     Attributes:
         fov: vertical field of view, rad.
@@ -32,7 +32,7 @@ class Film:
     aspect: float
 
     def distance(self, width: float, height: float) -> float:
-        """Metres from which a thing of this size, in metres, fills the picture."""
+        """Distance at which an object of this width and height fills the picture, metres."""
         slope = np.tan(self.fov / 2)
         return _MARGIN / 2 * max(height / slope, width / (slope * self.aspect), 0.3)
 
@@ -41,17 +41,17 @@ def named_view(
     name: str,
     pair: Pair,
     R_drawing_fixed: NDArray[np.float64],
-    film: Film,
+    projection: Projection,
     before: View | None = None,
 ) -> View:
-    """The view of a pair that has this name.
+    """Compute the view of this name for a pair.
 
     Args:
         name: one of `VIEWS`.
-        pair: what is to be seen.
+        pair: to be shown.
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
-        film: of the camera.
-        before: where the camera stands now; what fits everything keeps looking that way.
+        projection: of the camera.
+        before: the current view, whose direction `FIT` keeps.
     """
     points = pair.target.points @ R_drawing_fixed.T
     poses = pair.target.T_fixed_sensor
@@ -63,31 +63,33 @@ def named_view(
         pair.target.points,
         poses,
         R_drawing_fixed,
-        film.fov,
-        film.aspect,
+        projection.fov,
+        projection.aspect,
         _arrows(pair),
     )
     moving, tips = (ends @ R_drawing_fixed.T for ends in _arrows(pair))
     if name == ROBOT and len(sensors):
-        # Points come from sensors whose pose is known.
+        # Only sensors with a known pose have points.
         owner = (np.cumsum(placed) - 1)[pair.target.sensor]
         return _from_robot(points, owner, sensors, axes, moving)
     if name == FIT:
-        return _everything(points, sensors, film, before or slanted)
-    box = np.vstack([*corners(points, sensors), *spread(moving), *spread(tips)])
+        return _everything(points, sensors, projection, before or slanted)
+    box = np.vstack(
+        [*near_corners(points, sensors), *percentile_corners(moving), *percentile_corners(tips)]
+    )
     low, high = box.min(axis=0), box.max(axis=0)
     centre, (x, y, z) = (low + high) / 2, high - low
     if name == TOP:
-        distance = film.distance(x, y) + z / 2
+        distance = projection.distance(x, y) + z / 2
         return View(centre + distance * np.array([0.0, -_LEAN, 1.0]), centre)
     if name == FRONT:
-        distance = film.distance(y, z) + x / 2
+        distance = projection.distance(y, z) + x / 2
         return View(centre + distance * np.array([1.0, 0.0, 0.0]), centre)
     return slanted
 
 
 def _arrows(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The source points (M, 3) that were found to move, and where their arrows end at first."""
+    """Moving source points (M, 3), and the tips of their arrows at the default scale."""
     if pair.source is None or pair.flow is None:
         return np.zeros((0, 3)), np.zeros((0, 3))
     moving = pair.flow.label == Label.MOVING
@@ -102,14 +104,14 @@ def _from_robot(
     axes: NDArray[np.float64],
     moving: NDArray[np.float64],
 ) -> View:
-    """From the sensor that looks most at what moves; else from the one that sees most, as it looks.
+    """View from the sensor best aimed at the moving points, or else from the one with most points.
 
     Args:
         points: (N, 3) metres, the target.
-        owner: (N,) the sensor of each point, an index into the next two.
-        sensors: (S, 3) metres, where they are.
-        axes: (S, 3) unit vectors along which they look.
-        moving: (M, 3) metres, what moves.
+        owner: (N,) index of each point's sensor into `sensors` and `axes`.
+        sensors: (S, 3) metres.
+        axes: (S, 3) unit vectors along their optical axes.
+        moving: (M, 3) metres, the moving points.
     """
     if len(moving):
         look_at = np.median(moving, axis=0)
@@ -129,9 +131,9 @@ def _from_robot(
 
 
 def _everything(
-    points: NDArray[np.float64], sensors: NDArray[np.float64], film: Film, before: View
+    points: NDArray[np.float64], sensors: NDArray[np.float64], projection: Projection, before: View
 ) -> View:
-    # A few points may be wild.
+    # Outliers would push the camera away.
     box = np.percentile(points, [2, 98], axis=0) if len(points) else np.zeros((0, 3))
     seen = np.vstack([box, sensors])
     if len(seen) == 0:
@@ -140,4 +142,4 @@ def _everything(
     centre, size = (low + high) / 2, float(np.linalg.norm(high - low))
     direction = before.position - before.look_at
     direction = direction / np.linalg.norm(direction)
-    return View(centre + film.distance(size, size) * direction, centre)
+    return View(centre + projection.distance(size, size) * direction, centre)

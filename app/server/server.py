@@ -9,7 +9,7 @@ from app.browser.guarded_server import GuardedServer
 from app.browser.internals import CLOSED_CONNECTION
 from app.errors import InputError
 from app.panels.page import TITLE
-from app.scene.theme import dress
+from app.scene.theme import apply_theme
 from app.server.memory_release import MemoryRelease
 from app.server.session import Session, Shared
 
@@ -38,7 +38,7 @@ class Server:
         self._memory = MemoryRelease()
         self._server = GuardedServer(host, port, label=TITLE)
         self.host, self.port = host, self._server.get_port()
-        dress(self._server.gui, dark=False)
+        apply_theme(self._server.gui, dark=False)
         self._server.gui.main_panel.dock_right()
         self._server.gui.main_panel.set_width(_PANEL_WIDTH)
 

@@ -23,9 +23,9 @@ from app.session.commands import (
     Move,
     OpenFirst,
     OpenRecording,
+    ReceiveSurveyUpdate,
+    ReceiveTaskEvents,
     Restore,
-    TakeSurveyNews,
-    TakeTaskNews,
 )
 from app.session.followed_survey import FollowedSurvey
 from app.session.links import SavedSession, from_token
@@ -103,7 +103,7 @@ class Session:
             try:
                 self._serve(workbench, page)
                 if leaving := workbench.saved():
-                    self._shared.reloads.leave(token, leaving)
+                    self._shared.reloads.keep(token, leaving)
             finally:
                 workbench.close()
         except Exception:
@@ -138,9 +138,9 @@ class Session:
             entries,
             Tuning(parameters, shared.parameters),
             settings,
-            FollowedSurvey(shared.surveys, lambda news: post(TakeSurveyNews(news))),
+            FollowedSurvey(shared.surveys, lambda news: post(ReceiveSurveyUpdate(news))),
             LiveTimeline(shared.estimates, shared.surveys),
-            Tasks(lambda event: post(TakeTaskNews((event,)))),
+            Tasks(lambda event: post(ReceiveTaskEvents((event,)))),
         )
         return workbench, Page(PanelContext(self._client, entries, parameters, settings, post))
 

@@ -6,7 +6,7 @@ from time import monotonic
 from typing import Any, Self
 
 from app.session.command import LatestWins, Repeated
-from app.session.followed_survey import SurveyNews
+from app.session.followed_survey import SurveyUpdate
 from app.session.links import SavedSession
 from app.session.tasks import TaskEvent
 from app.session.workbench import Workbench
@@ -22,7 +22,7 @@ class OpenRecording(LatestWins):
         """Want it, unless it is open already."""
         opened = workbench.opened
         if opened is None or opened.entry.label != self.label:
-            workbench.opening.want([self.label])
+            workbench.opening.request([self.label])
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class OpenFirst(LatestWins):
 
     def apply(self, workbench: Workbench) -> None:
         """Want them."""
-        workbench.opening.want(self.labels)
+        workbench.opening.request(self.labels)
 
 
 @dataclass(frozen=True)
@@ -149,10 +149,10 @@ class ChangeView:
 
 
 @dataclass(frozen=True)
-class TakeSurveyNews(LatestWins):
+class ReceiveSurveyUpdate(LatestWins):
     """Take note that the background has filled more of a survey."""
 
-    news: SurveyNews
+    news: SurveyUpdate
 
     def apply(self, workbench: Workbench) -> None:
         """Take note of it."""
@@ -160,7 +160,7 @@ class TakeSurveyNews(LatestWins):
 
 
 @dataclass(frozen=True)
-class TakeTaskNews:
+class ReceiveTaskEvents:
     """Take note of how far background tasks are, and hand out their results."""
 
     events: tuple[TaskEvent, ...]

@@ -10,7 +10,7 @@ from estimator import Parameters
 
 
 @dataclass(frozen=True)
-class SurveyNews:
+class SurveyUpdate:
     """Survey that has come further.
 
     Attributes:
@@ -35,7 +35,7 @@ class FollowedSurvey:
         revision: grows with all news, since a survey is filled in place.
     """
 
-    def __init__(self, surveys: Surveys, tell: Callable[[SurveyNews], None]) -> None:
+    def __init__(self, surveys: Surveys, tell: Callable[[SurveyUpdate], None]) -> None:
         self._surveys = surveys
         self._tell = tell
         self._asked: tuple[Opened, Parameters] | None = None
@@ -53,15 +53,15 @@ class FollowedSurvey:
         if asked == self._asked:
             return
         self._asked, self.survey, tell = asked, None, self._tell
-        self._surveys.ask(self, *asked, lambda survey: tell(SurveyNews(asked, survey)))
+        self._surveys.request(self, *asked, lambda survey: tell(SurveyUpdate(asked, survey)))
 
-    def receive(self, news: SurveyNews) -> None:
+    def receive(self, news: SurveyUpdate) -> None:
         """Take note of news, unless something else was asked for meanwhile."""
         if news.asked is self._asked:
             self.survey = news.survey
             self.revision += 1
 
-    def leave(self) -> None:
+    def stop(self) -> None:
         """Follow none."""
-        self._surveys.leave(self)
+        self._surveys.cancel(self)
         self._asked = self.survey = None

@@ -17,7 +17,7 @@ _NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
 
 
 def preset_folder() -> Path:
-    """Folder of the user's presets, on Linux $XDG_CONFIG_HOME/tofscope/presets or below ~/.config."""
+    """Folder of the user's presets: tofscope/presets in $XDG_CONFIG_HOME or ~/.config on Linux."""
     return user_config_path("tofscope", appauthor=False) / "presets"
 
 

@@ -18,7 +18,7 @@ class Reloads:
         self._lock = threading.Lock()
         self._left: OrderedDict[str, SavedSession] = OrderedDict()
 
-    def leave(self, token: str, left: SavedSession) -> None:
+    def keep(self, token: str, left: SavedSession) -> None:
         """Keep an ended session."""
         with self._lock:
             self._left[token] = left

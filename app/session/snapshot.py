@@ -19,8 +19,8 @@ from estimator import Parameters
 
 
 @dataclass(frozen=True)
-class Sought:
-    """Frame that a time has led to; another one each time that it is sought.
+class TimeSeek:
+    """Frame that a time has led to; another one each time that it is time_seek.
 
     Attributes:
         seconds: from the start, as they were typed.
@@ -75,7 +75,7 @@ class Snapshot(Status):
         playback: of the recording.
         timeline: of the recording, as far as it is known.
         seeking: whether a person is moving the frame slider, which is then left to them.
-        sought: the last time that a person typed, None where none was.
+        time_seek: the last time that a person typed, None where none was.
         survey: with these parameters, as far as it is filled; None before its first numbers.
         survey_revision: grows whenever the survey has come further: it is filled in place.
     """
@@ -93,6 +93,6 @@ class Snapshot(Status):
     playback: Playback
     timeline: Timeline
     seeking: bool
-    sought: Sought | None
+    time_seek: TimeSeek | None
     survey: Survey | None
     survey_revision: int

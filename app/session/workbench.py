@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import viser
 
-from app.analysis.comparison import A, Comparison, compared
+from app.analysis.comparison import A, Comparison, estimate_frame
 from app.analysis.estimates import Estimates
 from app.analysis.first_frame import first_frame_with_flow
 from app.analysis.library import Entry, Library, Opened
@@ -16,7 +16,7 @@ from app.analysis.live_timeline import LiveTimeline
 from app.analysis.pairs import Pair
 from app.analysis.selection import Selection, cluster_at, cluster_of
 from app.scene.framing import Framing
-from app.scene.photograph import Photographer
+from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
 from app.session.clock import PlaybackClock
@@ -25,7 +25,7 @@ from app.session.links import SavedSession
 from app.session.opening import Opening
 from app.session.outbox import Message, Notice
 from app.session.presets import PresetUse
-from app.session.snapshot import Snapshot, Sought, Status
+from app.session.snapshot import Snapshot, Status, TimeSeek
 from app.session.tasks import Tasks
 from app.session.tuning import Tuning
 from estimator import Parameters
@@ -50,12 +50,12 @@ class Workbench:
         opened: the recording, None while none is open.
         frame: k.
         clock: of the playback.
-        sought: the last time that a person typed, None where none was.
+        time_seek: the last time that a person typed, None where none was.
         tuning: the parameters.
         settings: of the drawing; `change_view` changes them.
         scene: in the client's browser.
         framing: puts the scene's camera to views.
-        photographer: takes pictures of the scene.
+        renderer: takes pictures of the scene.
         pair: that is drawn, None where none is.
         preset_use: the last use of a preset, None where none was used.
         outbox: messages for the browser, taken by the next status or snapshot.
@@ -81,10 +81,10 @@ class Workbench:
         self.opened: Opened | None = None
         self.clock = PlaybackClock([0.0])
         self.frame = 0
-        self.sought: Sought | None = None
+        self.time_seek: TimeSeek | None = None
         self.scene = Scene(client, settings)
         self.framing = Framing(client, self.scene)
-        self.photographer = Photographer(client, self.scene)
+        self.renderer = SceneRenderer(client, self.scene)
         self.pair: Pair | None = None
         self.preset_use: PresetUse | None = None
         self.outbox: list[Message] = []
@@ -103,7 +103,7 @@ class Workbench:
         opened = self.opening.try_next()
         if opened is not None:
             self._begin(opened)
-        self.opening.complain()
+        self.opening.raise_failure()
 
     def draw(self) -> None:
         """Bring the scene up to date, with whatever frame is due by now."""
@@ -181,7 +181,7 @@ class Workbench:
         self.seek(saved.frame)
         self.tuning.comparison = saved.comparison
         if saved.camera:
-            self.framing.stand(saved.camera)
+            self.framing.start_from(saved.camera)
         if saved.playback:
             self.clock.change(asdict(saved.playback), self.frame, time.monotonic())
         if saved.playing:
@@ -216,7 +216,7 @@ class Workbench:
             playback=self.clock.playback,
             timeline=self.timeline.of(self.opened, self.tuning.parameters),
             seeking=seeking,
-            sought=self.sought,
+            time_seek=self.time_seek,
             survey=self.survey.survey,
             survey_revision=self.survey.revision,
             **self._status(),
@@ -236,7 +236,7 @@ class Workbench:
         recording = opened.recording
         self.clock = PlaybackClock(recording.stamps, like=self.clock.playback)
         self.frame = first_frame_with_flow(opened, self.tuning.parameters, self.estimates)
-        self.sought = None
+        self.time_seek = None
         self._selection.drop()
         with self._client.atomic():
             self.scene.open(recording)
@@ -246,7 +246,7 @@ class Workbench:
         ]
 
     def _leave(self, opened: Opened) -> None:
-        self.survey.leave()
+        self.survey.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:
@@ -265,7 +265,7 @@ class Workbench:
         self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
     ) -> None:
         self.pair = self._other = None
-        found = compared(self.estimates, opened, frame, parameters, comparison)
+        found = estimate_frame(self.estimates, opened, frame, parameters, comparison)
         self.pair, self._other = found.pair, found.other
         with self._client.atomic():
             self._picked = self._selection.follow(found.pair)
@@ -278,7 +278,7 @@ class Workbench:
             if self._drawn is None or self._drawn[0] is not opened:
                 self.framing.begin(found.pair)
             else:
-                self.framing.seen(found.pair)
+                self.framing.retry_first_view(found.pair)
         self._drawn = (opened, frame, parameters, comparison)
         if found.problem is not None:
             raise found.problem

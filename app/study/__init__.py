@@ -1,1 +1,1 @@
-"""The paper's study: recordings, methods and parameters in; tables, a figure and a page out."""
+"""The paper's study: methods evaluated over recordings, reported as tables, figure and page."""

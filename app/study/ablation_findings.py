@@ -1,4 +1,4 @@
-"""What the ablation says, in words."""
+"""Findings of the ablation, as sentences."""
 
 from app.study.paper import method_label
 from app.study.plan import Plan
@@ -7,13 +7,13 @@ from app.study.table import Table
 
 
 def ablation_findings(plan: Plan, table: Table) -> list[str]:
-    """Sentences on each method: what changes its errors most, and what exact readings leave.
+    """Sentences per method: the largest effect on its errors, and the errors with exact readings.
 
     Args:
         plan: of the study.
         table: of the ablation.
     """
-    return [said for method in plan.methods for said in _of_method(plan, table, method)]
+    return [sentence for method in plan.methods for sentence in _of_method(plan, table, method)]
 
 
 def _of_method(plan: Plan, table: Table, method: str) -> list[str]:
@@ -30,18 +30,18 @@ def _of_method(plan: Plan, table: Table, method: str) -> list[str]:
         lines.items(), key=lambda item: abs(_number(item[1]) - _number(usual))
     )
     switched = f"noise model {noise}" if imperfection == "none" else f"imperfection {imperfection}"
-    said = [
+    sentences = [
         f"{label}: {_errors(usual)} with noise model {plan.noise}; the {switched} changes that "
         f"most, to {_errors(most)}."
     ]
     if exact := lines.get(("none", "none")):
-        said.append(
+        sentences.append(
             f"{label}: exact readings leave {_errors(exact)}, "
             f"{100 * _number(exact) / _number(usual):.0f} % of the angle deviation. That share "
             "comes from the few rays, which sample a surface anew wherever it goes, and from the "
             "method, and a sensor with less noise does not take it away."
         )
-    return said
+    return sentences
 
 
 def _errors(row: dict[str, Value]) -> str:

@@ -1,4 +1,4 @@
-"""What was run, in words: conditions, commands and versions."""
+"""Conditions and commands of a study, as sentences for captions and the page."""
 
 import shlex
 
@@ -9,7 +9,7 @@ from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 
 
 def conditions(plan: Plan) -> str:
-    """A sentence for a caption: simulated or recorded, noise, imperfections, seed, parameters."""
+    """Caption: simulated or recorded, noise, imperfections, seed, parameters."""
     if plan.recordings is not None:
         return f"Recordings that were given. {opening_text(plan)} {parameters_text(plan)}."
     also = ", ".join(plan.imperfections) or "none"
@@ -21,21 +21,21 @@ def conditions(plan: Plan) -> str:
 
 
 def opening_text(plan: Plan) -> str:
-    """Sentences on frames that were asked for, "" where none was."""
+    """Sentences on the fixed frame and the truth frame, "" if neither was given."""
     first = plan.recordings[0] if plan.recordings else None
-    said: list[str] = []
+    sentences: list[str] = []
     if first and first.fixed_frame:
-        said.append(f"Clouds and flow are in the frame {first.fixed_frame}.")
+        sentences.append(f"Clouds and flow are in the frame {first.fixed_frame}.")
     if first and first.truth_frame:
-        said.append(
+        sentences.append(
             f"The truth is the motion of the frame {first.truth_frame}: coverage, precision, EPE3D "
             "and what stands beside them take every point to move with it."
         )
-    return " ".join(said)
+    return " ".join(sentences)
 
 
 def truth_frame_text(plan: Plan) -> str:
-    """What a table's note adds where the truth is the motion of a frame, "" where it is not."""
+    """Addition to a table's note where truth is the motion of a frame, else ""."""
     if not (plan.recordings and (frame := plan.recordings[0].truth_frame)):
         return ""
     return (
@@ -45,7 +45,7 @@ def truth_frame_text(plan: Plan) -> str:
 
 
 def parameters_text(plan: Plan) -> str:
-    """Every parameter of the study's methods with its value."""
+    """Names and values of all parameters of the study's methods."""
     values = values_of(plan.parameters)
     return ", ".join(_written(name, values[name], info) for name, info in _infos(plan).items())
 
@@ -57,14 +57,14 @@ def _written(name: str, value: object, info: ParameterInfo) -> str:
 
 
 def _infos(plan: Plan) -> dict[str, ParameterInfo]:
-    """{name: description} of the parameters of all methods, shared ones first."""
+    """{name: description} of all methods' parameters, shared ones first."""
     infos = {n: info for method in plan.methods for n, info in find_method(method).infos().items()}
     shared = {name: infos[name] for name in PARAMETER_INFO if name in infos}
     return shared | infos
 
 
 def simulator_texts(plan: Plan) -> list[str]:
-    """Sentences about noise model and imperfections."""
+    """Sentences on noise model and imperfections."""
     return [
         f"Noise model {plan.noise}: {NOISE_MODELS[plan.noise].text}.",
         *(f"Imperfection {name}: {IMPERFECTIONS[name].text}." for name in plan.imperfections),
@@ -72,7 +72,7 @@ def simulator_texts(plan: Plan) -> list[str]:
 
 
 def study_command(plan: Plan) -> str:
-    """The command that evaluates them."""
+    """Command that evaluates the recordings of `simulate_command`."""
     flags: list[str] = []
     values = values_of(plan.parameters)
     for name, info in _infos(plan).items():
@@ -92,7 +92,7 @@ def study_command(plan: Plan) -> str:
 
 
 def simulate_command(plan: Plan) -> str:
-    """The command that makes the study's recordings as files."""
+    """Command that writes the study's recordings to files."""
     return shlex.join(
         [
             *("tofscope", "simulate", *plan.scenarios),

@@ -1,4 +1,4 @@
-"""Why nothing got a flow, and what went wrong where errors are large."""
+"""Diagnosis of recordings without flow and of large errors."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -9,18 +9,19 @@ from numpy.typing import NDArray
 from app.analysis.evaluation import counting_pairs
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, prepare_pair
-from app.study.words import span
+from app.study.ranges import span
 from estimator import MOVING_SPEED, Label, Parameters, SceneFlow
 from recordings import Recording
 
 _WRONG = 0.5
-"""Share of their true way that a cluster's points are off by where its alignment is wrong."""
+"""Displacement error, as a share of the true displacement, above which an alignment is wrong."""
 
 
-def why_no_flow(recording: Recording, parameters: Parameters) -> str | None:
-    """What became of the points that truly move, in the middle one of the pairs that count.
+def diagnose_missing_flow(recording: Recording, parameters: Parameters) -> str | None:
+    """Explain the missing flow of truly moving points, for the middle of the pairs that count.
 
-    None where no pair counts, or the truth of points is not known, or none of them moves.
+    Returns:
+        A sentence; None if no pair counts, or without truly moving points.
     """
     pairs = list(counting_pairs(recording, parameters.n))
     if not pairs:
@@ -40,10 +41,11 @@ def why_no_flow(recording: Recording, parameters: Parameters) -> str | None:
     )
 
 
-def what_went_wrong(recording: Recording, parameters: Parameters) -> str | None:
-    """Fitness and displacement of the moving clusters that ICP aligned wrongly.
+def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> str | None:
+    """Report fitness and displacement of the moving clusters that ICP aligned wrongly.
 
-    None where there is none, or the truth of points is not known.
+    Returns:
+        A sentence; None without such clusters, or without truth per point.
     """
     found = wrong = 0
     fitness: list[float] = []
@@ -72,13 +74,13 @@ def what_went_wrong(recording: Recording, parameters: Parameters) -> str | None:
 def _misaligned(
     flow: SceneFlow, points: NDArray[np.float64], interval: float
 ) -> Iterator[tuple[float, float, float]]:
-    """(fitness, mean displacement m, true way m) of clusters that move, and wrongly."""
+    """(fitness, mean displacement m, true displacement m) of wrongly aligned moving clusters."""
     for result in flow.clusters:
         if result.label != Label.MOVING:
             continue
         true = points[result.remaining]
         moving = np.linalg.norm(true, axis=1) > MOVING_SPEED
-        if moving.mean() <= 0.5:  # what rests and was flagged is another error
+        if moving.mean() <= 0.5:  # resting points labelled Moving are another error
             continue
         off, way = (
             float(np.linalg.norm(velocity[moving], axis=1).mean()) * interval

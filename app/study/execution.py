@@ -1,4 +1,4 @@
-"""Units of work on all cores of this machine, or on a Dask cluster."""
+"""Execution of a study's work on local cores or on a Dask cluster."""
 
 import signal
 import tempfile
@@ -11,34 +11,34 @@ from typing import Any
 from app.analysis.method_files import load_method
 from app.errors import InputError
 from app.study.software import software_digest
-from app.study.work import Outcome, Work, do
+from app.study.work import Outcome, Work, run_work
 
-_PATIENCE = 10  # seconds to wait for a scheduler
+_PATIENCE = 10  # seconds, timeout of the connection to a scheduler
 
 
 def outcomes(
     works: list[Work], jobs: int, dask: str | None = None
 ) -> Generator[Outcome, None, None]:
-    """Do the work and give what comes of it, whatever is finished first.
+    """Run units of work, and yield their outcomes in order of completion.
 
-    Closing the iterator, or Ctrl-C, stops all that is under way.
+    Closing the iterator, or Ctrl-C, stops all running work.
 
     Args:
-        works: the units.
+        works: units of work.
         jobs: processes on this machine.
-        dask: address of a Dask scheduler that does the work instead, such as tcp://host:8786.
+        dask: address of a Dask scheduler to use instead, such as tcp://host:8786.
 
     Raises:
-        InputError: there is no scheduler, or Dask is not installed.
+        InputError: the scheduler cannot be reached, or Dask is not installed.
     """
     if dask is not None:
         yield from _on_dask(works, dask)
         return
-    # A folder of ours: workers that are stopped cannot clear away theirs.
+    # A common folder, since workers that are stopped cannot delete their own.
     with tempfile.TemporaryDirectory(prefix="tofscope-study-") as scratch:
         if jobs == 1 or len(works) < 2:
             for work in works:
-                yield do(work, software_digest(work.method_files), Path(scratch))
+                yield run_work(work, software_digest(work.method_files), Path(scratch))
         else:
             yield from _on_cores(works, min(jobs, len(works)), Path(scratch))
 
@@ -50,21 +50,22 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     begin = partial(_begin_worker, files)
     with parallel_config("loky", inner_max_num_threads=1, initializer=begin):
         done: Any = Parallel(n_jobs=jobs, return_as="generator_unordered")(
-            delayed(do)(work, software_digest(files), scratch) for work in works
+            delayed(run_work)(work, software_digest(files), scratch) for work in works
         )
     try:
         yield from done
     finally:
         with warnings.catch_warnings():
-            # That not all was done is what whoever closes this wants, and says.
+            # joblib warns of unfinished work, which is intended here.
             warnings.simplefilter("ignore", UserWarning)
             done.close()
 
 
 def _begin_worker(method_files: tuple[str, ...]) -> None:
-    """Load methods before work with their parameters arrives, and leave Ctrl-C to the parent.
+    """Initialise a worker process: load methods, and ignore Ctrl-C.
 
-    A terminal sends it to every process, and only the one that started the others answers.
+    Methods must be registered before parameters of theirs are unpickled. A terminal sends Ctrl-C
+    to all processes; the parent handles it.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for text in method_files:
@@ -76,7 +77,7 @@ def _method_files(works: list[Work]) -> tuple[str, ...]:
 
 
 def _method_loader(method_files: tuple[str, ...]) -> Any:  # noqa: ANN401 (of an optional package)
-    """Plugin of Dask that loads methods in every worker, those that join later too."""
+    """Dask plugin that loads methods in every worker, including those that join later."""
     from distributed import WorkerPlugin
 
     class MethodLoader(WorkerPlugin):
@@ -105,7 +106,7 @@ def _on_dask(works: list[Work], address: str) -> Iterator[Outcome]:
     with client:
         if files:
             client.register_plugin(_method_loader(files))
-        futures = client.map(do, works, software=software_digest(files), pure=False)
+        futures = client.map(run_work, works, software=software_digest(files), pure=False)
         by_future = dict(zip(futures, works, strict=True))
         try:
             for future in as_completed(futures):

@@ -1,4 +1,4 @@
-"""The sweep of n as a figure, readable in print and without colour."""
+"""Figure of the sweep of n, readable in print without colour."""
 
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
@@ -12,8 +12,8 @@ from app.study.work import SWEPT_SCENARIO
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Okabe and Ito's colours, told apart by colour-blind readers; each line has a dash and a marker
-# of its own, too, for a printer without colour.
+# Okabe and Ito's colour-blind safe colours; dashes and markers differ too, for print without
+# colour.
 _STYLES = (
     ("#000000", "-", "o"),
     ("#0072B2", "--", "s"),
@@ -26,14 +26,14 @@ _DPI = 300
 
 
 def sweep_figure(plan: Plan, rows: list[Row]) -> dict[str, bytes] | None:
-    """{ending: content of the file} as PNG and PDF; None where nothing was swept."""
+    """Draw the sweep as {ending: file content} for PNG and PDF; None without a sweep."""
     speeds = speeds_of(rows, SWEPT_SCENARIO)
     if not plan.sweep or not speeds:
         return None
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    # Type 42 keeps the letters letters in the PDF; without dates the same study is the same file.
+    # Type 42 keeps PDF text as text. Without dates, equal studies give equal files.
     settings: dict[Any, Any] = {"pdf.fonttype": 42, "font.size": 8, "font.family": "DejaVu Sans"}
     with mpl.rc_context(settings):
         figure = Figure((_WIDTH * len(plan.methods), _HEIGHT), layout="constrained")
@@ -67,7 +67,7 @@ def _draw(panel: "Axes", plan: Plan, rows: list[Row], method: str, speeds: list[
     }
     highest = max((e for found in errors.values() for e in found if e is not None), default=100.0)
     missing = any(e is None for found in errors.values() for e in found)
-    # What could not be computed is shown in a band of its own, above all errors.
+    # Cells that could not be computed are marked in a band above all errors.
     low, high = 1.12 * highest, 1.36 * highest
     if missing:
         panel.axhspan(low, high, facecolor="0.93", edgecolor="0.75", hatch="////", linewidth=0)

@@ -1,4 +1,4 @@
-"""What the numbers say beside the paper's, in words."""
+"""Findings of the study against the paper, as sentences."""
 
 import re
 from collections import Counter
@@ -8,33 +8,33 @@ from statistics import median
 from app.study.paper import (
     FRAME,
     LABELS,
-    Printed,
+    PaperRow,
     experiment_label,
     method_label,
     paper_numbers,
 )
 from app.study.plan import Plan
+from app.study.ranges import span
 from app.study.rows import Row, cell, mean, mean_of, speeds_of, std, values
-from app.study.words import span
 from app.study.work import SWEPT_SCENARIO
 from recordings.simulation import SPEEDS
 
 _FACTOR = 1.5
-"""The pattern holds where errors are within this factor of the paper's."""
-_BASELINE_ANGLE = 50.0  # degrees, above which the baseline fails as it does in the paper
+"""Errors within this factor of the paper's count as reproduced."""
+_BASELINE_ANGLE = 50.0  # degrees, above which the baseline fails as in the paper
 _FAR = 3.0
-"""A trial stands out where its error is this many times the median of its cell."""
+"""A trial is an outlier above this multiple of its cell's median error."""
 _PAPER_SMALL_N = (
     " The paper's figure has errors there, so some of its clusters were displaced by more than "
     "they moved. Noise that differs from zone to zone averages out over a cluster and cannot do "
     "that; errors that many zones share can."
 )
 _TREND = 1.25
-"""Errors rise or fall over the speeds where the last is this many times the first, or less."""
+"""Errors rise or fall over the speeds if the last and first differ by more than this factor."""
 
 
 def findings(plan: Plan, rows: list[Row]) -> list[str]:
-    """Sentences, in the order of the tables."""
+    """All findings as sentences, in the order of the tables."""
     return [
         *_missing(plan, rows),
         *_same_cell(plan, rows),
@@ -42,12 +42,12 @@ def findings(plan: Plan, rows: list[Row]) -> list[str]:
         *_outlying(plan, rows),
         *_small_n(plan, rows),
         *_not_computed(plan, rows),
-        *_where_paper_has_nothing(plan, rows),
+        *_cell_missing_in_paper(plan, rows),
     ]
 
 
 def _missing(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Which of the paper's cells have no recordings."""
+    """Cells of the paper's tables without recordings."""
     if not any(speeds_of(rows, scenario) for scenario in LABELS):
         yield "None of the paper's experiments is among these recordings."
         return
@@ -61,7 +61,7 @@ def _missing(plan: Plan, rows: list[Row]) -> Iterator[str]:
 
 
 def _same_cell(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Recordings that say the same scenario, speed and trial."""
+    """Recordings with equal scenario, speed and trial."""
     names: dict[tuple[str, float, int], dict[str, None]] = {}
     for row in rows if plan.recordings else ():
         if row.scenario is not None and row.speed is not None and row.trial is not None:
@@ -75,7 +75,7 @@ def _same_cell(plan: Plan, rows: list[Row]) -> Iterator[str]:
 
 
 def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Means over the speeds that both have."""
+    """Mean errors beside the paper's, over the speeds that both cover."""
     printed = paper_numbers().rows
     n = plan.parameters.n
     for scenario, method in dict.fromkeys(key[:2] for key in printed):
@@ -93,46 +93,53 @@ def _against_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
         angles = [mean(here, "angle_deg") or 0.0 for here in cells.values()]
         angle = mean_of(angles) or 0.0
         error = mean_of([mean(here, "velocity_error") or 0.0 for here in cells.values()]) or 0.0
-        theirs = [printed[scenario, method, speed] for speed in cells]
-        paper_angle = mean_of([p.angle_mean for p in theirs]) or 0.0
-        paper_error = mean_of([p.velocity_mean for p in theirs]) or 0.0
-        said = (
+        published = [printed[scenario, method, speed] for speed in cells]
+        paper_angle = mean_of([p.angle_mean for p in published]) or 0.0
+        paper_error = mean_of([p.velocity_mean for p in published]) or 0.0
+        sentence = (
             f"{label}, mean over {_over(len(cells))}: {angle:.1f} deg and "
             f"{error:.3f} m/s; the paper has {paper_angle:.1f} deg and {paper_error:.3f} m/s"
         )
         if method == "baseline":
             fails = "above" if angle > _BASELINE_ANGLE else "not above"
-            yield f"{said}. It is {fails} {_BASELINE_ANGLE:g} deg" + (
+            yield f"{sentence}. It is {fails} {_BASELINE_ANGLE:g} deg" + (
                 ", so it fails here as it does there: it also moves the clusters that lie still."
                 if angle > _BASELINE_ANGLE
                 else ", and so does not fail here as it does there."
             )
-            yield from _spread(label, [std(here, "angle_deg") for here in cells.values()], theirs)
+            yield from _spread(
+                label, [std(here, "angle_deg") for here in cells.values()], published
+            )
             continue
         ratios = angle / paper_angle, error / paper_error
-        yield f"{said}, of which these are {ratios[0]:.2f} and {ratios[1]:.2f} times: " + _judged(
-            ratios, simulated=plan.recordings is None
+        yield (
+            f"{sentence}; ours are {ratios[0]:.2f} and {ratios[1]:.2f} times as large: "
+            + _judged(ratios, simulated=plan.recordings is None)
         )
-        yield from _trend(label, angles, theirs)
+        yield from _trend(label, angles, published)
 
 
-def _spread(label: str, ours: list[float | None], theirs: list[Printed]) -> Iterator[str]:
-    """How trials differ."""
+def _spread(label: str, ours: list[float | None], published: list[PaperRow]) -> Iterator[str]:
+    """Spread over trials beside the paper's."""
     found = [deviation for deviation in ours if deviation is not None]
     if not found:
         return
-    printed = [p.angle_std for p in theirs]
+    printed = [p.angle_std for p in published]
     smaller = max(found) < min(printed)
     yield (
         f"{label}, std of the angle deviation over trials: {span(found, '.1f')} deg; the paper "
         f"has {span(printed, '.1f')} deg"
-        + (". Trials differ less here than there; why is not known." if smaller else ".")
+        + (
+            ". Trials differ less here than in the paper; the reason is not known."
+            if smaller
+            else "."
+        )
     )
 
 
-def _trend(label: str, ours: list[float], theirs: list[Printed]) -> Iterator[str]:
-    """Whether errors go with the speed as the paper's do, where those do."""
-    printed = [p.angle_mean for p in theirs]
+def _trend(label: str, ours: list[float], published: list[PaperRow]) -> Iterator[str]:
+    """Trend of the errors over speed beside the paper's, where the paper has one."""
+    printed = [p.angle_mean for p in published]
     if len(ours) < 3 or (there := _course(printed)) == "stays":
         return
     here = _course(ours)
@@ -140,7 +147,7 @@ def _trend(label: str, ours: list[float], theirs: list[Printed]) -> Iterator[str
         f"{label}, angle deviation from the slowest to the fastest: the paper's {there} "
         f"({', '.join(f'{a:.1f}' for a in printed)} deg); here it "
         f"{here + ', too' if here == there else here} ({', '.join(f'{a:.1f}' for a in ours)} deg)"
-        + ("." if here == there else ", and why it differs is not known.")
+        + ("." if here == there else "; the reason for the difference is not known.")
     )
 
 
@@ -151,7 +158,7 @@ def _course(found: list[float]) -> str:
 
 
 def _outlying(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Trials far from the others of their cell, which decide its mean, and what went wrong."""
+    """Outliers among the trials of a cell, which dominate its mean, with their diagnosis."""
     printed = paper_numbers().rows
     for scenario, method, speed in printed:
         if method not in plan.methods or method == "baseline":
@@ -165,16 +172,16 @@ def _outlying(plan: Plan, rows: list[Row]) -> Iterator[str]:
             error = row.metrics.get("velocity_error")
             if error is None:
                 continue
-            why = f" {row.why}" if row.why else ""
+            diagnosis = f" {row.diagnosis}" if row.diagnosis else ""
             label = f"{experiment_label(scenario, method)} at {speed:.2f} m/s: trial {row.trial}"
             has = f"{row.metrics.get('angle_deg') or 0.0:.1f} deg and {error:.3f} m/s"
             if error > _FAR * middle:
                 yield (
                     f"{label} alone has {has}, where the median of the trials is {angle:.1f} deg "
-                    f"and {middle:.3f} m/s; it decides mean and std of its cell.{why}"
+                    f"and {middle:.3f} m/s; it decides mean and std of its cell.{diagnosis}"
                 )
-            elif why:
-                yield f"{label} has {has}.{why}"
+            elif diagnosis:
+                yield f"{label} has {has}.{diagnosis}"
 
 
 def _over(speeds: int) -> str:
@@ -190,13 +197,13 @@ def _judged(ratios: tuple[float, float], *, simulated: bool) -> str:
     if not simulated:
         return f"{within}, and clearly smaller."
     return (
-        f"{within}, and clearly smaller. Why is not known: these are simulated, and nothing here "
-        "tests in what the simulation is easier than the laboratory."
+        f"{within}, and clearly smaller. The reason is not known: these recordings are simulated, "
+        "and nothing here tests how the simulation is easier than the laboratory."
     )
 
 
 def _small_n(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """How detection falls for small n."""
+    """Coverage at small n."""
     if not plan.sweep or not (speeds := speeds_of(rows, SWEPT_SCENARIO)):
         return
     delta = plan.parameters.delta
@@ -210,20 +217,20 @@ def _small_n(plan: Plan, rows: list[Row]) -> Iterator[str]:
             continue
         best = max(coverage, key=lambda n: coverage[n])
         first = min(coverage)
-        said = f"{method_label(method)}, coverage over n: {coverage[best]:.2f} at n = {best}"
+        sentence = f"{method_label(method)}, coverage over n: {coverage[best]:.2f} at n = {best}"
         if first != best:
-            said += f", {coverage[first]:.2f} at n = {first}"
+            sentence += f", {coverage[first]:.2f} at n = {first}"
         if coverage[first] > 0.9 * coverage[best]:
-            yield f"{said}; detection does not fall for small n."
+            yield f"{sentence}; detection does not fall for small n."
         elif method == "paper":
             ways = span([speed * first * FRAME for speed in speeds], ".3f")
             yield (
-                f"{said}. In {first} frame{'s' if first > 1 else ''} of 1/15 s the mannequin goes "
-                f"{ways} m, and what moves by less than delta = {delta:g} m "
+                f"{sentence}. In {first} frame{'s' if first > 1 else ''} of 1/15 s the mannequin "
+                f"goes {ways} m, and what moves by less than delta = {delta:g} m "
                 f"counts as stationary, so detection falls for small n.{_PAPER_SMALL_N}"
             )
         else:
-            yield f"{said}: detection falls for small n."
+            yield f"{sentence}: detection falls for small n."
 
 
 def _all_speeds(rows: list[Row], method: str, n: int) -> list[Row]:
@@ -232,7 +239,7 @@ def _all_speeds(rows: list[Row], method: str, n: int) -> list[Row]:
 
 
 def _not_computed(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """Which cells of the sweep could not be computed, and why."""
+    """Cells of the sweep that could not be computed, with the reason."""
     speeds = speeds_of(rows, SWEPT_SCENARIO)
     for method in plan.methods:
         for n in sorted(plan.sweep):
@@ -243,28 +250,28 @@ def _not_computed(plan: Plan, rows: list[Row]) -> Iterator[str]:
             here = [row for s in empty for row in cells[s]]
             pairs = sum(values(here, "pairs"))
             at = f"{', '.join(f'{s:.2f}' for s in empty)} m/s"
-            said = f"{method_label(method)} could not be computed at n = {n} and {at}"
+            sentence = f"{method_label(method)} could not be computed at n = {n} and {at}"
             if not pairs:
-                yield f"{said}: the object does not move for {n} frames, and no pair counts."
+                yield f"{sentence}: the object does not move for {n} frames, and no pair counts."
                 continue
             far = ", ".join(f"{s * n * FRAME:.2f}" for s in empty)
-            reasons = [row.why.partition(": ")[2] for row in here if row.why]
-            why = f" What became of it, for example: {_commonest(reasons)}" if reasons else ""
+            reasons = [row.diagnosis.partition(": ")[2] for row in here if row.diagnosis]
+            diagnosis = f" Example: {_commonest(reasons)}" if reasons else ""
             yield (
-                f"{said}: {pairs:.0f} pairs count, between whose clouds the object goes {far} m, "
-                f"and no point got a flow.{why}"
+                f"{sentence}: {pairs:.0f} pairs count, between whose clouds the object goes {far} "
+                f"m, and no point got a flow.{diagnosis}"
             )
 
 
 def _commonest(reasons: list[str]) -> str:
-    """A reason of the kind that is most frequent; numbers within it differ from case to case."""
+    """An example of the most frequent reason, numbers in it disregarded."""
     kinds = [re.sub(r"\d+(\.\d+)?", "#", reason) for reason in reasons]
     kind = Counter(kinds).most_common(1)[0][0]
     return reasons[kinds.index(kind)]
 
 
-def _where_paper_has_nothing(plan: Plan, rows: list[Row]) -> Iterator[str]:
-    """The one cell of the sweep that the paper could not compute."""
+def _cell_missing_in_paper(plan: Plan, rows: list[Row]) -> Iterator[str]:
+    """The cell of the sweep that the paper could not compute."""
     n, speed = 10, 0.30
     here = cell(rows, SWEPT_SCENARIO, "paper", speed, n)
     if n not in plan.sweep or not here:
@@ -278,7 +285,7 @@ def _where_paper_has_nothing(plan: Plan, rows: list[Row]) -> Iterator[str]:
     falling = ", ".join(f"{c:.2f} at n = {m}" for m, c in coverage.items() if m > 5 and c)
     reach = plan.parameters.max_correspondence_distance
     silent = [row for row in here if not row.metrics.get("points_with_flow")]
-    reasons = [row.why.partition(": ")[2] for row in silent if row.why]
+    reasons = [row.diagnosis.partition(": ")[2] for row in silent if row.diagnosis]
     yield (
         f"At n = {n} and {speed:.2f} m/s the paper could compute nothing: the two clouds of the "
         "object are too far apart to share clusters. Here "

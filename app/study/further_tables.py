@@ -1,4 +1,4 @@
-"""What stands beside the paper's tables: the field's metrics, sweep, ablation, recordings."""
+"""Tables beyond the paper's: scenarios, the field's metrics, sweep, ablation, recordings."""
 
 from collections.abc import Iterable, Iterator
 from itertools import product
@@ -6,9 +6,9 @@ from itertools import product
 from app.study.conditions import truth_frame_text
 from app.study.paper import FRAME, LABELS, experiment_label
 from app.study.plan import Plan
+from app.study.ranges import span
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
-from app.study.words import span
 from app.study.work import SWEPT_SCENARIO, Simulated
 from estimator import METRIC_INFO, MOVING_SPEED
 from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
@@ -20,7 +20,7 @@ _METRICS = {key: Column(key, info.heading, info.form) for key, info in METRIC_IN
 
 
 def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
-    """The scenarios that are not the paper's; None where there are none."""
+    """Table of the scenarios that are not the paper's; None without any."""
     names = [
         name
         for name in dict.fromkeys(row.scenario for row in rows if row.scenario)
@@ -71,7 +71,7 @@ def _with_std(keys: Iterable[str]) -> Iterator[Column]:
 
 
 def metrics_table(plan: Plan, rows: list[Row]) -> Table:
-    """The field's metrics of every experiment, means over trials."""
+    """Table of the field's metrics per experiment, means over trials."""
     shown = [key for key in METRIC_INFO if key not in _PAPERS]
     lines: list[dict[str, Value]] = []
     scenarios = list(dict.fromkeys(row.scenario for row in rows if row.scenario))
@@ -109,7 +109,7 @@ def metrics_table(plan: Plan, rows: list[Row]) -> Table:
 
 
 def sweep_table(plan: Plan, rows: list[Row]) -> Table | None:
-    """Error over n as a share of the target speed; None where nothing was swept."""
+    """Table of the error over n, as a share of the target speed; None without a sweep."""
     speeds = speeds_of(rows, SWEPT_SCENARIO)
     if not plan.sweep or not speeds:
         return None
@@ -148,7 +148,7 @@ def error_percent(trials: list[Row]) -> float | None:
 
 
 def ablation_table(plan: Plan, rows: list[Row]) -> Table | None:
-    """What each noise model and each imperfection does to the errors; None without `--ablation`."""
+    """Table of the errors per noise model and imperfection; None without `--ablation`."""
     if not plan.ablation:
         return None
     lines: list[dict[str, Value]] = []
@@ -186,7 +186,7 @@ def ablation_table(plan: Plan, rows: list[Row]) -> Table | None:
 
 
 def recordings_table(plan: Plan, rows: list[Row]) -> Table:
-    """Every recording on its own, with every metric."""
+    """Table of every metric of every recording."""
     columns = (
         Column("recording", "Recording"),
         Column("scenario", "Scenario"),

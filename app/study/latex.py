@@ -1,4 +1,4 @@
-"""Tables for a paper: booktabs, in a float across both columns."""
+"""Tables in LaTeX: booktabs, in a float across both columns."""
 
 import unicodedata
 
@@ -27,15 +27,15 @@ _SPECIAL = {
     "δ": r"$\delta$",
 }
 LONGEST = 60
-"""Rows that fit onto a page; a longer table is no float."""
+"""Maximum number of rows of a table that fits onto a page."""
 
 
 def as_latex(table: Table, conditions: str) -> str:
-    r"""A `table*`, in ASCII, that needs \usepackage{booktabs} and \usepackage{graphicx}.
+    r"""Write a table as ASCII `table*`; needs \usepackage{booktabs} and \usepackage{graphicx}.
 
     Args:
-        table: what is shown, of `LONGEST` rows at most.
-        conditions: a sentence that goes below the table, after its note.
+        table: of `LONGEST` rows at most.
+        conditions: sentence for below the table, after its note.
     """
     alignment = "".join("r" if column.form else "l" for column in table.columns)
     body = [[shown(c, row[c.key]) for c in table.columns] for row in table.rows]
@@ -47,7 +47,7 @@ def as_latex(table: Table, conditions: str) -> str:
         rf"\label{{tab:tofscope-{table.name.replace('_', '-')}}}",
         r"\footnotesize",
         r"\setlength{\tabcolsep}{3pt}",
-        # Shrunk to the text's width where it is wider, else as it is.
+        # Wide tables shrink to the text's width.
         r"\resizebox{\ifdim\width>\textwidth\textwidth\else\width\fi}{!}{%",
         rf"\begin{{tabular}}{{@{{}}{alignment}@{{}}}}",
         r"\toprule",
@@ -58,7 +58,7 @@ def as_latex(table: Table, conditions: str) -> str:
     before = ""
     for row in body:
         first = row[0]
-        # A gap between experiments, and each named once, as in the paper.
+        # As in the paper: a gap between experiments, each named once.
         if before and first != before:
             lines.append(r"\addlinespace")
         lines.append(_line([first if first != before else "", *row[1:]]))
@@ -94,7 +94,7 @@ def _line(cells: list[str]) -> str:
 
 
 def escaped(text: str) -> str:
-    """Text that LaTeX shows as it is; what ASCII cannot say is said without accents, or as ?."""
+    """Escape text for LaTeX, in ASCII: accents are dropped, other characters become ?."""
     return "".join(_SPECIAL.get(character) or _plain(character) for character in text)
 
 

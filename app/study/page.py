@@ -1,4 +1,4 @@
-"""The page to read first: one HTML file that opens everywhere, the figure within."""
+"""HTML of the study's report page, one file with its figure embedded."""
 
 import base64
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ th.group { text-align: center; border-bottom: 1px solid; }
 table { border-top: 2px solid; border-bottom: 2px solid; }
 thead tr:last-child th { border-bottom: 1px solid; }
 tr.next td { border-top: 1px solid #8886; }
-td.theirs, th.theirs { color: #767676; font-weight: 400; }
+td.paper, th.paper { color: #767676; font-weight: 400; }
 .note { font-size: 13px; color: #767676; }
 .simulated { padding: .5rem .8rem; border-left: 4px solid #d55e00; background: #d55e0018; }
 code, pre { font-size: 13px; } pre { white-space: pre-wrap; overflow-wrap: anywhere; }
@@ -33,7 +33,7 @@ dt { font-weight: 600; } dd { margin: 0 0 .4rem 1rem; }
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page below a heading; blocks are HTML."""
+    """Section of the page: a heading and blocks of HTML."""
 
     heading: str
     blocks: Sequence[str]
@@ -58,24 +58,24 @@ def paragraph(text: str, style: str = "") -> str:
 
 
 def items(texts: Sequence[str]) -> str:
-    """A list of plain texts."""
+    """A bullet list of plain texts."""
     return "<ul>" + "".join(f"<li>{escape(text)}</li>" for text in texts) + "</ul>"
 
 
 def terms(texts: dict[str, str]) -> str:
-    """What is what, a line each."""
+    """Definition list of {term: text}."""
     return (
         "<dl>" + "".join(f"<dt>{escape(k)}</dt><dd>{escape(v)}</dd>" for k, v in texts.items())
     ) + "</dl>"
 
 
 def command(text: str) -> str:
-    """Something to type."""
+    """A command to type."""
     return f"<pre>{escape(text)}</pre>"
 
 
 def picture(png: bytes, text: str) -> str:
-    """A PNG within the page, so that it stays with it."""
+    """A PNG embedded in the page, with its alternative text."""
     data = base64.b64encode(png).decode()
     return f'<figure><img alt="{escape(text)}" src="data:image/png;base64,{data}"></figure>'
 
@@ -87,14 +87,14 @@ def links(paths: Sequence[str]) -> str:
 
 
 def folded(heading: str, block: str) -> str:
-    """A block that opens on a click."""
+    """A block that is folded until clicked."""
     return f"<details><summary>{escape(heading)}</summary>{block}</details>"
 
 
 def table(content: Table) -> str:
-    """A table with its note."""
+    """A table with its note below."""
     head = "".join(
-        f'<th class="{"text" if not c.form else "theirs" if c.theirs else ""}">'
+        f'<th class="{"text" if not c.form else "paper" if c.from_paper else ""}">'
         f"{escape(c.title)}</th>"
         for c in content.columns
     )
@@ -108,7 +108,7 @@ def table(content: Table) -> str:
         first = row[content.columns[0].key]
         style = ' class="next"' if before not in (None, first) else ""
         cells = "".join(
-            f'<td class="{"text" if not c.form else "theirs" if c.theirs else ""}">'
+            f'<td class="{"text" if not c.form else "paper" if c.from_paper else ""}">'
             f"{escape(shown(c, row[c.key]))}</td>"
             for c in content.columns
         )

@@ -1,4 +1,4 @@
-"""The paper's numbers, which stand beside ours."""
+"""The paper's published numbers, and its names of experiments."""
 
 import tomllib
 from dataclasses import dataclass
@@ -12,13 +12,13 @@ LABELS = {
     "sideways": "x-axis",
     "robot_moving": "Robot with ToF moving",
 }
-"""{scenario: how the paper's tables call it}."""
+"""{scenario: its name in the paper's tables}."""
 FRAME = 1 / 15
-"""Seconds from frame to frame."""
+"""Frame period, seconds."""
 
 
 @dataclass(frozen=True)
-class Printed:
+class PaperRow:
     """A row of the paper's tables: means and standard deviations over its trials.
 
     Attributes:
@@ -36,24 +36,24 @@ class Printed:
 
 @dataclass(frozen=True)
 class PaperNumbers:
-    """What the paper prints.
+    """Tables I and II of the paper.
 
     Attributes:
-        source: where it is printed.
+        source: citation.
         rows: {(scenario, method, m/s): its row}.
     """
 
     source: str
-    rows: dict[tuple[str, str, float], Printed]
+    rows: dict[tuple[str, str, float], PaperRow]
 
 
 @cache
 def paper_numbers() -> PaperNumbers:
-    """Read the data file."""
+    """Load the paper's numbers from the data file."""
     content = tomllib.loads(files("app.study").joinpath("paper_numbers.toml").read_text("utf-8"))
     rows = {
-        (e["scenario"], e["method"], speed): Printed(
-            **{key: e[key][i] for key in Printed.__dataclass_fields__}
+        (e["scenario"], e["method"], speed): PaperRow(
+            **{key: e[key][i] for key in PaperRow.__dataclass_fields__}
         )
         for e in content["experiment"]
         for i, speed in enumerate(e["speed"])
@@ -62,10 +62,10 @@ def paper_numbers() -> PaperNumbers:
 
 
 def method_label(method: str) -> str:
-    """How tables and figures call a method."""
+    """Name of a method in tables and figures."""
     return find_method(method).label
 
 
 def experiment_label(scenario: str, method: str) -> str:
-    """How tables call an experiment."""
+    """Name of an experiment in tables."""
     return f"{LABELS.get(scenario, scenario)} ({method_label(method)})"

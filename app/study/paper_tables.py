@@ -1,4 +1,4 @@
-"""Tables I and II in the paper's layout, each cell beside the paper's."""
+"""Tables I and II in the paper's layout, with the paper's values beside ours."""
 
 from itertools import product
 
@@ -14,13 +14,13 @@ _COLUMNS = (
     Column("experiment", "Experiment"),
     Column("speed", "Speed (m/s)", ".2f"),
     Column("angle_mean", "mean", ".3f", _ANGLE),
-    Column("paper_angle_mean", "paper mean", ".3f", _ANGLE, theirs=True),
+    Column("paper_angle_mean", "paper mean", ".3f", _ANGLE, from_paper=True),
     Column("angle_std", "std", ".3f", _ANGLE),
-    Column("paper_angle_std", "paper std", ".3f", _ANGLE, theirs=True),
+    Column("paper_angle_std", "paper std", ".3f", _ANGLE, from_paper=True),
     Column("velocity_mean", "mean", ".3f", _VELOCITY),
-    Column("paper_velocity_mean", "paper mean", ".3f", _VELOCITY, theirs=True),
+    Column("paper_velocity_mean", "paper mean", ".3f", _VELOCITY, from_paper=True),
     Column("velocity_std", "std", ".3f", _VELOCITY),
-    Column("paper_velocity_std", "paper std", ".3f", _VELOCITY, theirs=True),
+    Column("paper_velocity_std", "paper std", ".3f", _VELOCITY, from_paper=True),
     Column("coverage", "Coverage", ".2f"),
     Column("precision", "Precision", ".2f"),
     Column("trials", "Trials"),
@@ -36,7 +36,7 @@ _NOTE = (
 
 
 def paper_tables(plan: Plan, rows: list[Row]) -> tuple[Table, Table]:
-    """Table I: the y-axis experiment; Table II: x-axis, and robot moving; with every method."""
+    """Table I (y-axis) and Table II (x-axis, robot moving), each with every method."""
     return (
         _table(
             plan, rows, "table_1", "The y-axis experiment, as in the paper's Table I", ("towards",)
@@ -75,6 +75,6 @@ def _row(rows: list[Row], scenario: str, method: str, speed: float, n: int) -> d
     for key, metric in (("angle", "angle_deg"), ("velocity", "velocity_error")):
         row[f"{key}_mean"], row[f"{key}_std"] = mean(here, metric), std(here, metric)
         for statistic in ("mean", "std"):
-            theirs = getattr(printed, f"{key}_{statistic}") if printed else None
-            row[f"paper_{key}_{statistic}"] = theirs
+            published = getattr(printed, f"{key}_{statistic}") if printed else None
+            row[f"paper_{key}_{statistic}"] = published
     return row

@@ -1,11 +1,11 @@
-"""What a study runs: which recordings, and each with which parameters."""
+"""Plan of a study: its recordings, and the parameters to evaluate each with."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
-from app.analysis.evaluation import Ask
+from app.analysis.evaluation import EvaluationCase
 from app.study.work import SWEPT_SCENARIO, Recorded, Simulated, Source, Work
 from estimator import Parameters
 from recordings.simulation import (
@@ -17,32 +17,32 @@ from recordings.simulation import (
 )
 
 SWEEP = tuple(range(1, 11))
-"""The values of n that are tried."""
+"""Values of n in the sweep."""
 METHODS = ("paper", "baseline")
-"""The methods that the paper compares."""
+"""Methods that the paper compares."""
 ABLATION_SPEED = 0.20
-"""m/s; the ablation runs at this speed alone, or at the first of those that are asked for."""
+"""Speed of the ablation, m/s; if the plan lacks it, the ablation has the plan's first speed."""
 _ABLATION_TRIALS = 3
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is asked of a study.
+    """Recordings, methods and parameters of a study.
 
     Attributes:
-        parameters: of every method; their own method is not used.
+        parameters: of every method; their field `method` is ignored.
         methods: names, in the order of the tables.
-        scenarios: names of those that are simulated.
-        speeds: m/s, None for those of each scenario; where nothing moves it is 0 all the same.
+        scenarios: names of the simulated ones.
+        speeds: m/s, None for each scenario's own; ignored by scenarios in which nothing moves.
         trials: numbers, from 1.
         sweep: values of n for the sweep, empty for none.
         seed: of the simulator.
         noise: name of the simulator's noise model.
         imperfections: names, in the registry's order.
         ablation: whether noise models and imperfections are compared.
-        recordings: that are taken instead of simulated ones, None to simulate.
-        rig: file of the rig to simulate with, None for the paper's.
-        method_files: FILE.py:NAME of methods that are not registered by themselves.
+        recordings: to evaluate in place of simulated ones, None to simulate.
+        rig: file of the simulated rig, None for the paper's.
+        method_files: FILE.py:NAME of the methods that come from files.
     """
 
     parameters: Parameters
@@ -60,17 +60,19 @@ class Plan:
     method_files: tuple[str, ...] = ()
 
     def works(self) -> list[Work]:
-        """Every unit of work, a recording once, in a fixed order."""
-        asks = tuple(Ask(parameters) for parameters in self._parameters([self.parameters.n]))
+        """All units of work, one per recording, in a fixed order."""
+        cases = tuple(
+            EvaluationCase(parameters) for parameters in self._parameters([self.parameters.n])
+        )
         sweep = self._parameters(self.sweep)
         files = self.method_files
-        works = {source: Work(source, asks, sweep, files) for source in self.sources()}
+        works = {source: Work(source, cases, sweep, files) for source in self.sources()}
         for source in self.ablation_sources():
-            works.setdefault(source, Work(source, asks, method_files=files))
+            works.setdefault(source, Work(source, cases, method_files=files))
         return list(works.values())
 
     def sources(self) -> list[Source]:
-        """The recordings of tables and sweep."""
+        """Recordings of the tables and the sweep."""
         if self.recordings is not None:
             return list(self.recordings)
         return [
@@ -80,7 +82,7 @@ class Plan:
         ]
 
     def ablation_sources(self) -> list[Source]:
-        """The recordings of the ablation, those of a condition beside each other."""
+        """Recordings of the ablation, grouped by condition."""
         speeds = self._speeds(SWEPT_SCENARIO)
         speed = ABLATION_SPEED if ABLATION_SPEED in speeds else speeds[0]
         return [
@@ -90,7 +92,7 @@ class Plan:
         ]
 
     def conditions(self) -> list[tuple[str, tuple[str, ...]]]:
-        """Noise models alone, then each imperfection alone with the noise of the study."""
+        """Conditions of the ablation: noise models, then imperfections with the plan's noise."""
         if not self.ablation:
             return []
         return [

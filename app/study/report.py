@@ -1,4 +1,4 @@
-"""The folder that a study leaves: the page to read first, tables, figure."""
+"""Report of a study: a folder with page, tables and figure."""
 
 import json
 from collections.abc import Sequence
@@ -45,19 +45,19 @@ _KNOWN = {f"{_TABLES}/{name}.{ending}" for name in _NAMES for ending in ("csv", 
     "sweep.png",
     "sweep.pdf",
 }
-"""All that a study may write beside the page."""
+"""Every file that a report may contain beside the page."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """A study that was run.
+    """A finished study.
 
     Attributes:
-        plan: what was asked.
-        outcomes: of every recording that was evaluated, in the plan's order.
-        failures: a sentence for each that was not.
-        command: that was typed.
-        seconds: that this run took on the clock.
+        plan: of the study.
+        outcomes: of all evaluated recordings, in the plan's order.
+        failures: a sentence per recording that failed.
+        command: as typed.
+        seconds: wall-clock time of this run.
     """
 
     plan: Plan
@@ -92,26 +92,26 @@ class Study:
 
 
 def _any(table: Table) -> bool:
-    """Whether there are recordings of any of the table's cells."""
+    """Whether any cell of the table has recordings."""
     return any(row["trials"] for row in table.rows)
 
 
 def write_report(study: Study, folder: Path) -> list[Table]:
-    """Write every file but the store's, and return the tables.
+    """Write page, tables and figure, and return the tables.
 
     Raises:
         InputError: a file cannot be written.
     """
     tables, figure = study.tables(), sweep_figure(study.plan, study.rows())
-    said = conditions(study.plan)
+    caption = conditions(study.plan)
     files: dict[str, bytes] = {}
     for table in tables:
         files |= {
             f"{_TABLES}/{table.name}.csv": as_csv(table).encode(),
-            f"{_TABLES}/{table.name}.md": as_markdown(table, said).encode(),
+            f"{_TABLES}/{table.name}.md": as_markdown(table, caption).encode(),
         }
         if len(table.rows) <= LONGEST:
-            files[f"{_TABLES}/{table.name}.tex"] = as_latex(table, said).encode()
+            files[f"{_TABLES}/{table.name}.tex"] = as_latex(table, caption).encode()
     content = json.dumps(_as_json(study, tables), indent=1)
     files[f"{_TABLES}/tables.json"] = f"{content}\n".encode()
     files |= {f"sweep.{ending}": content for ending, content in (figure or {}).items()}
@@ -120,7 +120,7 @@ def write_report(study: Study, folder: Path) -> list[Table]:
         (folder / _TABLES).mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             (folder / name).write_bytes(content)
-        # What another study left here would stand beside a page that does not speak of it.
+        # Files of an earlier study in this folder do not belong to this page.
         for name in _KNOWN - files.keys():
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
@@ -129,7 +129,7 @@ def write_report(study: Study, folder: Path) -> list[Table]:
 
 
 def _as_json(study: Study, tables: Sequence[Table]) -> dict[str, Any]:
-    """All that decides the tables, and the tables; nothing that differs from run to run."""
+    """Tables with everything that determines them, equal in every run of the same study."""
     plan = study.plan
     return {
         "simulated": plan.recordings is None,
@@ -183,8 +183,8 @@ def _first(study: Study) -> page.Section:
         )
         blocks.append(page.items(simulator_texts(plan)))
     else:
-        said = f"{len(plan.sources())} recordings that were given. {opening_text(plan)}"
-        blocks.append(page.paragraph(said.strip()))
+        text = f"{len(plan.sources())} recordings that were given. {opening_text(plan)}"
+        blocks.append(page.paragraph(text.strip()))
     if study.failures:
         blocks.append(page.paragraph("Not evaluated:"))
         blocks.append(page.items(list(study.failures)))

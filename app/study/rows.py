@@ -1,4 +1,4 @@
-"""Results as rows, one per recording and set of parameters, and statistics over trials."""
+"""Results as rows, one per recording and parameter set, and statistics over trials."""
 
 import math
 from collections.abc import Iterable
@@ -14,7 +14,7 @@ Value = float | int | str | None
 
 @dataclass(frozen=True)
 class Row:
-    """A recording with one set of parameters.
+    """Result of a recording with one set of parameters.
 
     Attributes:
         source: the recording.
@@ -23,7 +23,7 @@ class Row:
         trial: None where the recording does not say.
         parameters: of the estimate.
         metrics: {field of `Metrics`: value}, empty without truth.
-        why: see `Result`.
+        diagnosis: see `Result`.
     """
 
     source: Source
@@ -32,7 +32,7 @@ class Row:
     trial: int | None
     parameters: Parameters
     metrics: dict[str, float | None]
-    why: str | None = None
+    diagnosis: str | None = None
 
 
 def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
@@ -43,9 +43,9 @@ def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
             outcome.scenario,
             outcome.speed,
             outcome.trial,
-            result.ask.parameters,
+            result.case.parameters,
             result.metrics or {},
-            result.why,
+            result.diagnosis,
         )
         for outcome in outcomes
         for result in outcome.results
@@ -53,7 +53,7 @@ def rows_of(outcomes: Iterable[Outcome]) -> list[Row]:
 
 
 def cell(rows: Iterable[Row], scenario: str, method: str, speed: float, n: int) -> list[Row]:
-    """The trials of one cell of a table, in their order."""
+    """Rows of one cell of a table, in the order of trials."""
     here = [
         row
         for row in rows
@@ -64,27 +64,27 @@ def cell(rows: Iterable[Row], scenario: str, method: str, speed: float, n: int) 
 
 
 def speeds_of(rows: Iterable[Row], scenario: str) -> list[float]:
-    """The speeds at which there are recordings of a scenario, in m/s, rising."""
+    """Speeds of a scenario's recordings, m/s, ascending."""
     return sorted({r.speed for r in rows if r.scenario == scenario and r.speed is not None})
 
 
 def values(rows: Iterable[Row], metric: str) -> list[float]:
-    """A metric of those rows in which it is defined."""
+    """Values of a metric in the rows that define it."""
     found = (row.metrics.get(metric) for row in rows)
     return [float(value) for value in found if value is not None]
 
 
 def mean(rows: Iterable[Row], metric: str) -> float | None:
-    """Mean of a metric over the rows in which it is defined, None where there is none."""
+    """Mean of a metric over the rows that define it, None without any."""
     return mean_of(values(rows, metric))
 
 
 def mean_of(found: list[float]) -> float | None:
-    """Mean, None of nothing."""
+    """Mean, None for an empty list."""
     return math.fsum(found) / len(found) if found else None
 
 
 def std(rows: Iterable[Row], metric: str) -> float | None:
-    """Sample standard deviation (n - 1), None where fewer than two rows define the metric."""
+    """Sample standard deviation (n - 1), None if fewer than two rows define it."""
     found = values(rows, metric)
     return float(np.std(found, ddof=1)) if len(found) > 1 else None

@@ -1,4 +1,4 @@
-"""What decides a result beside its recording and parameters: our source, and the packages used."""
+"""Version of the software that computes results: source digest and package versions."""
 
 import hashlib
 import platform
@@ -28,7 +28,7 @@ _PACKAGES = (
 
 @cache
 def versions() -> dict[str, str]:
-    """{package: version} of all that takes part in computing, Python and Tofscope included."""
+    """{package: version} of everything that affects results, Python and Tofscope included."""
     found = {"tofscope": version("tofscope"), "python": platform.python_version()}
     for name in _PACKAGES:
         try:
@@ -40,16 +40,19 @@ def versions() -> dict[str, str]:
 
 _OF_APP = (
     *(f"analysis/{name}.py" for name in ("pairs", "pair_estimator", "evaluation")),
-    *(f"study/{name}.py" for name in ("work", "diagnosis", "words")),
+    *(f"study/{name}.py" for name in ("work", "diagnosis", "ranges")),
 )
-"""Files of `app` that decide results."""
+"""Files of `app` that affect results."""
 
 
 @cache
 def software_digest(method_files: tuple[str, ...] = ()) -> str:
-    """A digest of our source, of `versions` and of users' methods, by FILE.py:NAME each.
+    """SHA-256 of the source, of `versions`, and of method files.
 
-    Results of other software are not these.
+    Results computed under another digest are not reused.
+
+    Args:
+        method_files: FILE.py:NAME of each method from a file.
     """
     digest = hashlib.sha256(repr(sorted(versions().items())).encode())
     for room in (estimator, recordings, robot_assets):

@@ -1,4 +1,4 @@
-"""Finished results in a folder, so that a study goes on where it stopped."""
+"""Store of finished results in a folder, from which a stopped study resumes."""
 
 import hashlib
 import json
@@ -8,27 +8,27 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
-from app.analysis.evaluation import Ask
+from app.analysis.evaluation import EvaluationCase
 from app.errors import InputError
 from app.study.work import Outcome, Recorded, Result, Source, Work
 from estimator import from_nested, to_nested
 
 _LONGEST_NAME = 80
-"""Bytes of a recording's name in that of its file; file systems take 255 in all."""
+"""Maximum bytes of a recording's name in its file name, of the 255 that file systems take."""
 
 
 class Store:
-    """One JSON file per recording, named by all that decides its results.
+    """One JSON file per recording, named by a digest of everything that determines its results.
 
-    That is: scenario, speed, trial, seed, noise model, imperfections and rig, or the content of the
-    file and how it is opened; and the software. Parameters and method are kept with each result.
+    These are scenario, speed, trial, seed, noise model, imperfections and rig, or the file's
+    content and how it is opened; and the software. Parameters are stored with each result.
 
     Args:
-        folder: made where it is missing.
-        software: see `app.study.software`.
+        folder: created if missing.
+        software: a `software_digest`.
 
     Raises:
-        InputError: the folder cannot be made.
+        InputError: the folder cannot be created.
     """
 
     def __init__(self, folder: Path, software: str) -> None:
@@ -42,27 +42,27 @@ class Store:
             raise InputError(f"The folder {folder} cannot be made: {error.strerror}.") from error
 
     def finished(self, work: Work) -> Outcome | None:
-        """What is known of a unit of work already, of what it wants; None where nothing is."""
+        """Stored results of a unit of work, None without any."""
         found = self._load(work.source)
         if found is None:
             return None
-        known = {result.ask: result for result in found.results}
+        known = {result.case: result for result in found.results}
         wanted = work.wanted(found.scenario)
-        return replace(found, results=tuple(known[ask] for ask in wanted if ask in known))
+        return replace(found, results=tuple(known[case] for case in wanted if case in known))
 
     def missing(self, work: Work) -> Work | None:
-        """What remains to be done of a unit of work, None where all is known."""
+        """The part of a unit of work that is not stored yet, None if all is."""
         found = self.finished(work)
         if found is None:
             return work
-        known = {result.ask for result in found.results}
-        left = tuple(ask for ask in work.wanted(found.scenario) if ask not in known)
+        known = {result.case for result in found.results}
+        left = tuple(case for case in work.wanted(found.scenario) if case not in known)
         return Work(work.source, left, method_files=work.method_files) if left else None
 
     def keep(self, outcome: Outcome) -> None:
-        """Add what came of a unit of work; failures are not kept, so that they are tried again.
+        """Store the outcome of a unit of work; failures are not stored, so that they are retried.
 
-        What cannot be written is known all the same, as long as this store is there.
+        Outcomes that cannot be written are kept in memory.
 
         Raises:
             InputError: the file cannot be written.
@@ -70,15 +70,15 @@ class Store:
         if outcome.failure:
             return
         before = self._load(outcome.source)
-        known = {r.ask: r for r in (before.results if before else ())}
-        known |= {r.ask: r for r in outcome.results}
+        known = {r.case: r for r in (before.results if before else ())}
+        known |= {r.case: r for r in outcome.results}
         whole = replace(outcome, results=tuple(known.values()))
         path = self._path(outcome.source)
         content = asdict(whole)
         content["source"] = _as_json(outcome.source)
         for written, result in zip(content["results"], whole.results, strict=True):
-            written["ask"]["parameters"] = to_nested(result.ask.parameters)
-        # Written beside and renamed: whoever stops in between leaves the old file or the new one.
+            written["case"]["parameters"] = to_nested(result.case.parameters)
+        # Atomic: an interrupted run leaves the old file or the new one.
         draft = path.with_suffix(".draft")
         try:
             draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
@@ -96,10 +96,10 @@ class Store:
             content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
             results = tuple(
                 Result(
-                    Ask(from_nested(r["ask"]["parameters"]), r["ask"]["resting"]),
+                    EvaluationCase(from_nested(r["case"]["parameters"]), r["case"]["resting"]),
                     r["metrics"],
                     r["seconds"],
-                    r["why"],
+                    r["diagnosis"],
                 )
                 for r in content["results"]
             )
@@ -112,11 +112,11 @@ class Store:
                 warnings=tuple(content["warnings"]),
             )
         except (OSError, ValueError, KeyError, TypeError):
-            # Not there, or not ours, or half a file: then it is computed again.
+            # A missing or invalid file: the results are computed again.
             return None
 
     def digest(self, source: Source) -> str:
-        """Of all that decides a recording's results: equal where they are equal."""
+        """SHA-256 of everything that determines a recording's results."""
         identity = _as_json(source) | {"software": self._software}
         files = ("path", "rig", "urdf") if isinstance(source, Recorded) else ("rig",)
         for key in files:
@@ -124,14 +124,14 @@ class Store:
         return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
 
     def _path(self, source: Source) -> Path:
-        # The digest says which it is; the name, cut where it is long, is for people.
+        # The digest identifies the recording; its name, possibly cut, helps readers.
         name = os.fsencode(source.name)[:_LONGEST_NAME].decode(errors="ignore")
         return self._folder / f"{name}-{self.digest(source)[:16]}.json"
 
     def _content(self, path: Path | None) -> str | None:
-        """A digest of a file, None where it cannot be read: whoever opens it says why.
+        """SHA-256 of a file, None if it cannot be read, which is reported when it is opened.
 
-        Recordings can be large: one is read once, unless it changes.
+        Cached, since recordings can be large.
         """
         if path is None:
             return None

@@ -1,4 +1,4 @@
-"""A table as data; how it looks in a file is decided elsewhere."""
+"""Tables as data, independent of file formats."""
 
 from dataclasses import dataclass
 
@@ -7,38 +7,38 @@ from app.study.rows import Value
 
 @dataclass(frozen=True)
 class Column:
-    """A column.
+    """A column of a table.
 
     Attributes:
-        key: in CSV and JSON.
-        title: for people.
+        key: name in CSV and JSON.
+        title: heading.
         form: format of its numbers, such as ".3f"; "" for text.
-        group: title that it shares with its neighbours, "" for none.
-        theirs: whether its numbers are the paper's and not ours.
+        group: heading shared with neighbouring columns, "" for none.
+        from_paper: whether its numbers are the paper's.
     """
 
     key: str
     title: str
     form: str = ""
     group: str = ""
-    theirs: bool = False
+    from_paper: bool = False
 
     @property
     def full_title(self) -> str:
-        """With its group, where there is no place for a line of groups."""
+        """Title with its group, for formats without a line of groups."""
         return f"{self.group}: {self.title}" if self.group else self.title
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table.
+    """A table with caption and note.
 
     Attributes:
-        name: as in names of files.
-        title: its caption.
-        note: what to know when reading it.
-        columns: in order.
-        rows: each {key of a column: value}, None where undefined.
+        name: in file names.
+        title: caption.
+        note: definitions and conditions for its readers.
+        columns: from left to right.
+        rows: each {column key: value}, None where undefined.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Table:
 
     @property
     def groups(self) -> list[tuple[str, int]]:
-        """(title, columns) of each group, from left to right; "" for a column without."""
+        """(title, number of columns) of each group, from left to right; "" for a single column."""
         found: list[tuple[str, int]] = []
         for column in self.columns:
             if found and column.group and found[-1][0] == column.group:
@@ -60,11 +60,11 @@ class Table:
 
 
 UNDEFINED = "–"
-"""How a value that is not defined is shown to people."""
+"""Text of an undefined value."""
 
 
 def shown(column: Column, value: Value) -> str:
-    """A cell as people read it."""
+    """Text of a cell."""
     if value is None:
         return UNDEFINED
     return format(value, column.form) if column.form else str(value)

@@ -1,4 +1,4 @@
-"""One unit of a study's work: a recording, evaluated with every set of parameters it is for."""
+"""Unit of a study's work: one recording, evaluated with several sets of parameters."""
 
 import logging
 import math
@@ -11,10 +11,10 @@ from time import thread_time
 
 from threadpoolctl import threadpool_limits
 
-from app.analysis.evaluation import Ask, Evaluation, evaluate_all
+from app.analysis.evaluation import Evaluation, EvaluationCase, evaluate_all
 from app.analysis.notes import notes
 from app.errors import UserError
-from app.study.diagnosis import what_went_wrong, why_no_flow
+from app.study.diagnosis import diagnose_missing_flow, diagnose_wrong_alignment
 from app.study.software import software_digest
 from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
@@ -23,23 +23,23 @@ from robot_assets import load_rig, load_robot
 
 _LOG = logging.getLogger(__name__)
 _LARGE = 0.5
-"""Share of the speed above which the error of what moves is looked into."""
+"""Velocity error, as a share of the true speed, above which it is diagnosed."""
 SWEPT_SCENARIO = "towards"
-"""In which n is varied (paper, section III-B)."""
+"""Scenario of the sweep of n (paper, section III-B)."""
 
 
 @dataclass(frozen=True)
 class Simulated:
-    """A recording that the study simulates; names are those of `recordings.simulation`.
+    """A recording to simulate; names are those of `recordings.simulation`.
 
     Attributes:
-        scenario: what moves.
+        scenario: its name.
         speed: m/s.
         trial: from 1.
         seed: of the random numbers.
         noise: name of the noise model.
         imperfections: names, in the registry's order.
-        rig: file of the rig that it is simulated with, None for the paper's.
+        rig: file of the rig, None for the paper's.
     """
 
     scenario: str
@@ -58,7 +58,7 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Recorded:
-    """A recording that is there, and how it is opened (see `tofscope evaluate --help`)."""
+    """An existing recording, with options for opening it (see `tofscope evaluate --help`)."""
 
     path: Path
     fixed_frame: str | None = None
@@ -77,60 +77,59 @@ Source = Simulated | Recorded
 
 @dataclass(frozen=True)
 class Work:
-    """A recording and what it is evaluated with.
+    """A recording and the cases to evaluate it with.
 
     Attributes:
         source: the recording.
-        asks: for every recording.
-        sweep: parameters that are tried where the recording shows the swept scenario.
-        method_files: FILE.py:NAME of methods that are not registered by themselves.
+        cases: for any scenario.
+        sweep: further parameters if the recording is of the swept scenario.
+        method_files: FILE.py:NAME of the methods that come from files.
     """
 
     source: Source
-    asks: tuple[Ask, ...]
+    cases: tuple[EvaluationCase, ...]
     sweep: tuple[Parameters, ...] = ()
     method_files: tuple[str, ...] = ()
 
-    def wanted(self, scenario: str | None) -> tuple[Ask, ...]:
-        """What a recording of a scenario is evaluated with, each set of parameters once."""
-        asked = {ask.parameters for ask in self.asks}
+    def wanted(self, scenario: str | None) -> tuple[EvaluationCase, ...]:
+        """Cases for a recording of this scenario, without duplicates."""
+        known = {case.parameters for case in self.cases}
         sweep = self.sweep if scenario == SWEPT_SCENARIO else ()
-        return (*self.asks, *(Ask(p, resting=False) for p in sweep if p not in asked))
+        return (*self.cases, *(EvaluationCase(p, resting=False) for p in sweep if p not in known))
 
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one set of parameters.
+    """Result of one case.
 
     Attributes:
-        ask: that is answered.
+        case: that was evaluated.
         metrics: {field of `Metrics`: its value, None where undefined}; None without truth.
-        seconds: of one core, that it took.
-        why: in a sentence, where no point got a flow what became of the moving ones, and where
-            flow of moving points is far off what went wrong.
+        seconds: CPU time of one core.
+        diagnosis: a sentence on why no point got a flow, or on errors that are large; else None.
     """
 
-    ask: Ask
+    case: EvaluationCase
     metrics: dict[str, float | None] | None
     seconds: float
-    why: str | None = None
+    diagnosis: str | None = None
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a unit of work.
+    """Outcome of a unit of work.
 
     Attributes:
         source: the recording.
-        scenario: that it shows, None where it does not say.
-        speed: m/s that was asked of the moving object, None where it does not say.
-        trial: its number, None where it does not say.
-        noise: name of the noise model, None where it was not simulated.
-        frames: in the recording.
-        seconds: of one core, that making or opening it took.
-        results: one for each ask.
+        scenario: of the recording, None where unknown.
+        speed: nominal speed of the moving object, m/s, None where unknown.
+        trial: its number, None where unknown.
+        noise: name of the noise model, None unless simulated.
+        frames: number of frames.
+        seconds: CPU time of one core for simulating or opening it.
+        results: one per case.
         warnings: sentences about the recording.
-        failure: why there are no results, in a sentence.
+        failure: a sentence on why there are no results, None for success.
     """
 
     source: Source
@@ -145,13 +144,13 @@ class Outcome:
     failure: str | None = None
 
 
-def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
-    """Do a unit of work, here and now.
+def run_work(work: Work, software: str, scratch: Path | None = None) -> Outcome:
+    """Simulate or open a recording and evaluate it, in this process.
 
     Args:
         work: the unit.
-        software: `software_digest` of whoever asks: a cluster may have another version.
-        scratch: folder for the simulated file, the system's own where None.
+        software: `software_digest` of the caller; a cluster's worker may have another version.
+        scratch: folder for the simulated file, None for the system's.
     """
     if software != software_digest(work.method_files):
         return Outcome(
@@ -160,20 +159,20 @@ def do(work: Work, software: str, scratch: Path | None = None) -> Outcome:
             "package that it computes with; give all workers the same.",
         )
     try:
-        # Cores are shared out by recordings; threads within would only fight for them.
+        # Cores are divided by recordings; further threads would compete for them.
         with threadpool_limits(1), _opened(work.source, scratch) as (recording, seconds):
             return _evaluated(work, recording, seconds)
     except UserError as error:
         return Outcome(work.source, failure=str(error))
     except Exception as error:
         _LOG.exception("Unexpected error in %s.", work.source.name)
-        # One recording does not cost the others theirs.
+        # A failure must not end the other recordings.
         return Outcome(work.source, failure=f"{work.source.name}: {type(error).__name__}: {error}")
 
 
 @contextmanager
 def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, float]]:
-    """The recording, and the seconds that it took to make or open it."""
+    """Context of the open recording and the CPU seconds for simulating or opening it."""
     begin = thread_time()
     if isinstance(source, Recorded):
         with open_recording(
@@ -212,29 +211,29 @@ def _evaluated(work: Work, recording: Recording, seconds: float) -> Outcome:
             trial=made.trial,
             noise=made.noise.partition(":")[0],
         )
-    asks = work.wanted(outcome.scenario)
-    evaluations = evaluate_all(recording, asks)
-    results = tuple(_result(recording, *each) for each in zip(asks, evaluations, strict=True))
-    # After the evaluation: some warnings come up only when frames are read.
+    cases = work.wanted(outcome.scenario)
+    evaluations = evaluate_all(recording, cases)
+    results = tuple(_result(recording, *each) for each in zip(cases, evaluations, strict=True))
+    # After the evaluation, since some warnings arise when frames are read.
     return replace(outcome, results=results, warnings=tuple(notes(recording)))
 
 
-def _result(recording: Recording, ask: Ask, evaluation: Evaluation) -> Result:
+def _result(recording: Recording, case: EvaluationCase, evaluation: Evaluation) -> Result:
     metrics = evaluation.metrics
     if metrics is None:
-        return Result(ask, None, evaluation.seconds)
+        return Result(case, None, evaluation.seconds)
     begin = thread_time()
     values = {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
-    why = None
+    diagnosis = None
     if not metrics.points_with_flow:
-        why = why_no_flow(recording, ask.parameters)
-    elif ask.resting and _is_far_off(metrics, recording):
-        why = what_went_wrong(recording, ask.parameters)
-    return Result(ask, values, evaluation.seconds + thread_time() - begin, why)
+        diagnosis = diagnose_missing_flow(recording, case.parameters)
+    elif case.resting and _is_far_off(metrics, recording):
+        diagnosis = diagnose_wrong_alignment(recording, case.parameters)
+    return Result(case, values, evaluation.seconds + thread_time() - begin, diagnosis)
 
 
 def _is_far_off(metrics: Metrics, recording: Recording) -> bool:
-    """Whether errors are large though most of the flow is where something moves."""
+    """Whether errors are large although most of the flow belongs to moving points."""
     made = recording.provenance
     return (
         made is not None

@@ -54,7 +54,7 @@ def snapshot(**changes: Any) -> Snapshot:
         "playing": False,
         "playback": Playback(0, len(opened.recording) - 1),
         "seeking": False,
-        "sought": None,
+        "time_seek": None,
         "survey": None,
         "survey_revision": 0,
     }

@@ -182,7 +182,7 @@ def test_results_cannot_be_written_to():
     steps = np.linspace(0.0, 0.2, 8)
     patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
     cloud = np.vstack([patch, patch + 2.0])
-    found = estimate_scene_flow(cloud, cloud + [0.05, 0.0, 0.0], 1.0, Parameters())
+    found = estimate_scene_flow(cloud, cloud + np.array([0.05, 0.0, 0.0]), 1.0, Parameters())
     result = found.clusters[0]
     of_cluster = (result.source, result.remaining, result.velocity)
     of_round = (result.rounds[0].transformation, result.rounds[0].inlier_source)

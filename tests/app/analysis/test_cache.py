@@ -3,24 +3,24 @@ import time
 
 import pytest
 
-from app.analysis.cache import Memory
+from app.analysis.cache import Cache
 
 
 def test_a_value_is_made_once():
     made = []
-    memory = Memory(3)
+    cache = Cache(3)
     for _ in range(3):
-        assert memory.get("a", lambda: made.append(1) or "value") == "value"
+        assert cache.get("a", lambda: made.append(1) or "value") == "value"
     assert made == [1]
 
 
 def test_the_one_asked_for_longest_ago_is_forgotten():
     made = []
-    memory = Memory(2)
+    cache = Cache(2)
     for key in ("a", "b", "a", "c", "a", "b"):
-        memory.get(key, lambda key=key: made.append(key) or key)
+        cache.get(key, lambda key=key: made.append(key) or key)
     assert made == ["a", "b", "c", "b"]
-    assert len(memory) == 2
+    assert len(cache) == 2
 
 
 def test_two_threads_wait_for_one_value():
@@ -31,8 +31,8 @@ def test_two_threads_wait_for_one_value():
         made.append(1)
         return object()
 
-    memory, got = Memory(3), []
-    threads = [threading.Thread(target=lambda: got.append(memory.get("a", make))) for _ in range(4)]
+    cache, got = Cache(3), []
+    threads = [threading.Thread(target=lambda: got.append(cache.get("a", make))) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -42,11 +42,11 @@ def test_two_threads_wait_for_one_value():
 
 
 def test_what_fails_is_tried_again():
-    memory = Memory(3)
+    cache = Cache(3)
 
     def fail():
         raise ValueError("not now")
 
     with pytest.raises(ValueError, match="not now"):
-        memory.get("a", fail)
-    assert memory.get("a", lambda: 7) == 7
+        cache.get("a", fail)
+    assert cache.get("a", lambda: 7) == 7

@@ -5,7 +5,7 @@ import pytest
 
 from app.analysis import flows
 from app.analysis.estimates import Estimates
-from app.analysis.evaluation import Ask, evaluate, evaluate_all
+from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
 from app.analysis.pair_estimator import SEGMENT, PairEstimator
 from app.analysis.pairs import prepare_pair
 from estimator import Method, Parameters, SceneFlow, Window, register, scene_flow_of_points
@@ -119,15 +119,15 @@ def test_flows_are_what_evaluate_pools():
 
 def test_methods_asked_together_give_what_each_gives_alone():
     path = sample_paths()[0]
-    asks = [
-        Ask(Parameters(method="baseline")),
-        Ask(Parameters()),
-        Ask(Parameters(n=5), resting=False),
-        Ask(Parameters(delta=0.08)),
-        Ask(Parameters()),
+    cases = [
+        EvaluationCase(Parameters(method="baseline")),
+        EvaluationCase(Parameters()),
+        EvaluationCase(Parameters(n=5), resting=False),
+        EvaluationCase(Parameters(delta=0.08)),
+        EvaluationCase(Parameters()),
     ]
     with open_recording(path) as recording:
-        together = evaluate_all(recording, asks)
-        for ask, found in zip(asks, together, strict=True):
-            alone = evaluate_all(recording, [ask])[0]
+        together = evaluate_all(recording, cases)
+        for case, found in zip(cases, together, strict=True):
+            alone = evaluate_all(recording, [case])[0]
             assert repr(found.metrics) == repr(alone.metrics)  # nan equals nan

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
-from app.analysis.evaluation import Ask, evaluate, evaluate_all
+from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
 from app.analysis.survey import Survey, coarse_to_fine
 from estimator import Parameters
 from recordings import PairTruth, RecordingError, open_recording, sample_paths
@@ -85,7 +85,7 @@ def test_pairs_that_do_not_count_can_be_left_out():
     asked = []
     clouds = fake.cloud
     fake.cloud = lambda k, far: asked.append(k) or clouds(k, far)
-    metrics = evaluate_all(fake, [Ask(Parameters(), resting=False)])[0].metrics
+    metrics = evaluate_all(fake, [EvaluationCase(Parameters(), resting=False)])[0].metrics
     assert sorted(asked) == [*range(30, 32), *range(38, 40)]
     whole = evaluate(fake, Parameters())
     assert metrics is not None

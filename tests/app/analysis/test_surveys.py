@@ -44,7 +44,7 @@ def runs(monkeypatch):
 
 def test_a_survey_is_filled_and_told(runs):
     surveys, listener = Surveys(Estimates()), Listener()
-    surveys.ask("me", fake_opened(), Parameters(), listener)
+    surveys.request("me", fake_opened(), Parameters(), listener)
     until(lambda: listener.complete)
     assert (listener.told[-1][1].moving[8:] == 100).all()
     assert len(runs) == FRAMES - 8
@@ -55,12 +55,12 @@ def test_what_was_computed_is_not_computed_again(runs):
     estimates, opened = Estimates(), fake_opened()
     estimates.estimated(opened, 20, Parameters())
     surveys, listener = Surveys(estimates), Listener()
-    surveys.ask("me", opened, Parameters(), listener)
+    surveys.request("me", opened, Parameters(), listener)
     until(lambda: listener.complete)
     assert len(runs) == FRAMES - 8
     estimates.estimated(opened, 30, Parameters())  # scrubbing
     again = Listener()
-    surveys.ask("you", opened, Parameters(), again)
+    surveys.request("you", opened, Parameters(), again)
     until(lambda: again.complete)
     assert again.told[-1][1] is listener.told[-1][1]
     assert len(runs) == FRAMES - 8
@@ -70,9 +70,9 @@ def test_the_next_question_takes_the_place_of_the_last(runs):
     estimates = Estimates()
     surveys, first, second = Surveys(estimates), Listener(), Listener()
     opened = fake_opened()
-    surveys.ask("me", opened, Parameters(), first)
+    surveys.request("me", opened, Parameters(), first)
     until(lambda: first.told)
-    surveys.ask("me", opened, Parameters(delta=0.05), second)
+    surveys.request("me", opened, Parameters(delta=0.05), second)
     count = len(first.told)
     until(lambda: second.complete)
     assert len(first.told) <= count + 1  # one may have been on its way
@@ -82,9 +82,9 @@ def test_the_next_question_takes_the_place_of_the_last(runs):
 
 def test_whoever_leaves_is_told_nothing_more():
     surveys, listener = Surveys(Estimates()), Listener()
-    surveys.ask("me", fake_opened(), Parameters(), listener)
+    surveys.request("me", fake_opened(), Parameters(), listener)
     until(lambda: listener.told)
-    surveys.leave("me")
+    surveys.cancel("me")
     until(lambda: surveys._thread is None)
     assert not listener.complete
 
@@ -93,7 +93,7 @@ def test_two_who_ask_share_the_work(runs):
     surveys, opened = Surveys(Estimates()), fake_opened()
     listeners = [Listener(), Listener()]
     for number, listener in enumerate(listeners):
-        surveys.ask(number, opened, Parameters(), listener)
+        surveys.request(number, opened, Parameters(), listener)
     until(lambda: all(listener.complete for listener in listeners))
     assert len(runs) == FRAMES - 8
 
@@ -102,7 +102,7 @@ def test_it_stands_back_while_somebody_waits_for_an_estimate():
     estimates, listener = Estimates(), Listener()
     surveys = Surveys(estimates)
     with estimates.foreground:
-        surveys.ask("me", fake_opened(), Parameters(), listener)
+        surveys.request("me", fake_opened(), Parameters(), listener)
         time.sleep(0.3)
         assert listener.told == []
     until(lambda: listener.complete)
@@ -122,7 +122,7 @@ def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others
     player.start()
     found: list[Survey] = []
     for who, n in enumerate((5, 6)):
-        surveys.ask(who, fake_opened(), Parameters(n=n), found.append)
+        surveys.request(who, fake_opened(), Parameters(n=n), found.append)
     try:
         until(lambda: len({id(survey) for survey in found}) == 2)
         first, second = {survey.parameters.n: survey for survey in found}.values()
@@ -132,7 +132,7 @@ def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others
         ended.set()
         player.join()
         for who in range(2):
-            surveys.leave(who)
+            surveys.cancel(who)
 
 
 def test_what_is_played_fills_the_survey_without_being_computed_again(monkeypatch, runs):
@@ -143,12 +143,12 @@ def test_what_is_played_fills_the_survey_without_being_computed_again(monkeypatc
         estimates.estimated(opened, k, Parameters())
     surveys = Surveys(estimates)
     with estimates.foreground:  # never quiet
-        surveys.ask("me", opened, Parameters(), listener)
+        surveys.request("me", opened, Parameters(), listener)
         until(lambda: listener.told)
         assert listener.told[0][1].done[list(played)].all()
         assert len(runs) <= len(played) + 2
         assert not listener.complete
-        surveys.leave("me")
+        surveys.cancel("me")
 
 
 def test_a_broken_frame_is_a_gap():
@@ -162,7 +162,7 @@ def test_a_broken_frame_is_a_gap():
 
     fake.cloud = cloud
     surveys, listener = Surveys(Estimates()), Listener()
-    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    surveys.request("me", fake_opened(fake), Parameters(), listener)
     until(lambda: listener.complete)
     gaps = np.flatnonzero(np.isnan(listener.told[-1][1].moving))
     assert gaps.tolist() == [*range(8), 25, 33]
@@ -171,9 +171,9 @@ def test_a_broken_frame_is_a_gap():
 def test_a_recording_that_was_closed_leaves_no_gap_behind():
     estimates, listener = Estimates(), Listener()
     surveys, fake = Surveys(estimates), fake_recording()
-    surveys.ask("me", fake_opened(fake), Parameters(), listener)
+    surveys.request("me", fake_opened(fake), Parameters(), listener)
     until(lambda: listener.told)
-    surveys.leave("me")
+    surveys.cancel("me")
 
     def closed(*_):
         raise ValueError("read of a closed file")
@@ -181,6 +181,6 @@ def test_a_recording_that_was_closed_leaves_no_gap_behind():
     fake.cloud = closed
     until(lambda: surveys._thread is None)
     again = Listener()
-    surveys.ask("me", fake_opened(), Parameters(), again)
+    surveys.request("me", fake_opened(), Parameters(), again)
     until(lambda: again.complete)
     assert (again.told[-1][1].moving[8:] == 100).all()

@@ -100,7 +100,7 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     opened, estimates = fake_opened(recording), Estimates(flows=4)
     surveys = Surveys(estimates)
     live, complete = LiveTimeline(estimates, surveys), threading.Event()
-    surveys.ask(
+    surveys.request(
         "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None
     )
     assert complete.wait(60)
@@ -110,7 +110,9 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     # Others ask for so many that this one is forgotten.
     for n in range(1, 20):
         other = threading.Event()
-        surveys.ask("you", opened, Parameters(n=30, n_min=n), lambda _, other=other: other.set())
+        surveys.request(
+            "you", opened, Parameters(n=30, n_min=n), lambda _, other=other: other.set()
+        )
         assert other.wait(60)
     assert surveys.known(opened, Parameters()) is None
     live._last = None if live._last is None else (*live._last[:1], 0.0, seen)

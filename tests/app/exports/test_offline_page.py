@@ -72,7 +72,7 @@ def test_too_many_frames_are_refused_before_anything_is_drawn():
 
 def test_it_is_seen_from_where_it_is_told(monkeypatch):
     placed = []
-    monkeypatch.setattr("app.scene.scene.Scene.stand", lambda _, camera: placed.append(camera))
+    monkeypatch.setattr("app.scene.scene.Scene.set_camera", lambda _, camera: placed.append(camera))
     camera = Camera((3.0, 2.0, 1.0), (0.0, 0.0, 0.5), 0.6)
     offline_page(
         fake_opened(), [6], Parameters(), ViewSettings(), camera, Estimates(), lambda _: None

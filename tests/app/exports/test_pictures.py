@@ -3,8 +3,8 @@ import io
 import numpy as np
 from PIL import Image
 
-from app.exports.pictures import finished, png, side_by_side
-from app.scene.legend import Legend, Mark, Ramp
+from app.exports.pictures import composed, png, side_by_side
+from app.scene.legend import Legend, LegendEntry, Ramp
 
 WHITE = (255, 255, 255)
 
@@ -17,20 +17,21 @@ def pixels(height=200, width=300):
 
 
 def test_a_transparent_background_becomes_white_or_stays():
-    white = np.asarray(finished(pixels(), WHITE, None))
+    white = np.asarray(composed(pixels(), WHITE, None))
     assert white.shape == (200, 300, 3)
     assert (white[:, :150] == [200, 30, 40]).all()
     assert (white[:, 150:] == 255).all()
-    clear = np.asarray(finished(pixels(), None, None))
+    clear = np.asarray(composed(pixels(), None, None))
     assert (clear[:, 150:, 3] == 0).all()
 
 
 def test_the_legend_is_drawn_in_its_colours_in_the_lower_left_corner():
     nothing = np.zeros((400, 600, 4), dtype=np.uint8)
     legend = Legend(
-        (Mark((10, 20, 250), "Target"),), Ramp(((0, 0, 0), (0, 240, 0)), "Flow: 0", "0.5 m/s")
+        (LegendEntry((10, 20, 250), "Target"),),
+        Ramp(((0, 0, 0), (0, 240, 0)), "Flow: 0", "0.5 m/s"),
     )
-    drawn = np.asarray(finished(nothing, WHITE, legend))
+    drawn = np.asarray(composed(nothing, WHITE, legend))
     assert (drawn[:320] == 255).all()
     assert (drawn[:, 400:] == 255).all()
     rows, columns = np.nonzero((drawn == [10, 20, 250]).all(axis=2))
@@ -45,8 +46,8 @@ def test_the_legends_letters_can_be_read_on_every_background():
     nothing = np.zeros((400, 600, 4), dtype=np.uint8)
 
     def letters(background, dark):
-        legend = Legend((Mark((10, 20, 250), "Target"),), dark=dark)
-        drawn = np.asarray(finished(nothing, background, legend)).astype(int)
+        legend = Legend((LegendEntry((10, 20, 250), "Target"),), dark=dark)
+        drawn = np.asarray(composed(nothing, background, legend)).astype(int)
         return drawn[320:, 30:200, :3]
 
     assert letters((20, 20, 20), dark=False).max() > 200
@@ -59,7 +60,7 @@ def test_the_legends_letters_can_be_read_on_every_background():
 
 
 def test_the_file_says_what_it_shows():
-    picture = finished(pixels(), WHITE, None)
+    picture = composed(pixels(), WHITE, None)
     said = {"Recording": "towards", "Parameters": '{"gamma": 0.7}', "Frame": "γ 24"}
     read = Image.open(io.BytesIO(png(picture, said)))
     assert read.size == (300, 200)
@@ -67,8 +68,8 @@ def test_the_file_says_what_it_shows():
 
 
 def test_two_views_stand_side_by_side():
-    left = finished(pixels(), WHITE, None)
-    right = finished(np.zeros((200, 100, 4), dtype=np.uint8), WHITE, None)
+    left = composed(pixels(), WHITE, None)
+    right = composed(np.zeros((200, 100, 4), dtype=np.uint8), WHITE, None)
     both = np.asarray(side_by_side([left, right]))
     assert both.shape == (200, 400, 3)
     assert (both[:, :150] == [200, 30, 40]).all()

@@ -17,7 +17,7 @@ from app.panels.time_field import SeekTime
 from app.scene.colours import css
 from app.scene.settings import ViewSettings
 from app.session.followed_survey import FollowedSurvey
-from app.session.snapshot import Sought
+from app.session.snapshot import TimeSeek
 from estimator import Parameters
 from recordings import PairTruth
 from tests.app.analysis.test_survey import filled
@@ -143,7 +143,7 @@ def test_the_first_and_the_last_numbers_build_every_plot_anew(client):
 def test_a_time_leads_to_the_nearest_frame():
     class Workbench:
         opened = fake_opened()
-        frame = sought = None
+        frame = time_seek = None
 
         def seek(self, frame):
             self.frame = frame
@@ -151,7 +151,7 @@ def test_a_time_leads_to_the_nearest_frame():
     bench: Any = Workbench()
     SeekTime(1.0).apply(bench)
     assert bench.frame == 15
-    assert bench.sought == Sought(1.0, 15)
+    assert bench.time_seek == TimeSeek(1.0, 15)
     SeekTime(1e9).apply(bench)
     assert bench.frame == FRAMES - 1
 
@@ -171,28 +171,28 @@ def test_the_number_field_follows_the_frame_and_leaves_alone_what_is_typed(clien
     until(lambda: bench.panel._time._typed == 1.25)
     bench.show(frame=24)  # before the session has gone there
     assert field.value == 1.25
-    first = Sought(1.2, 18)  # to where the first letters lead
-    bench.show(frame=18, sought=first)
+    first = TimeSeek(1.2, 18)  # to where the first letters lead
+    bench.show(frame=18, time_seek=first)
     assert field.value == 1.25
-    bench.show(frame=18, sought=first)
+    bench.show(frame=18, time_seek=first)
     assert field.value == 1.25
-    last = Sought(1.25, 19)
-    bench.show(frame=19, sought=last)
+    last = TimeSeek(1.25, 19)
+    bench.show(frame=19, time_seek=last)
     assert field.value == 1.25
-    bench.show(frame=20, sought=last, playing=True)  # a moment after the last letter
+    bench.show(frame=20, time_seek=last, playing=True)  # a moment after the last letter
     assert field.value == 1.25
     bench.panel._time._typed_at -= 10
-    bench.show(frame=20, sought=last, playing=True)
+    bench.show(frame=20, time_seek=last, playing=True)
     assert field.value == at(20)
-    bench.show(frame=19, sought=last)  # again, with no typing
+    bench.show(frame=19, time_seek=last)  # again, with no typing
     assert field.value == at(19)
     client.change("Go to [s]", 1.26)
     until(lambda: bench.panel._time._typed == 1.26)
-    bench.show(frame=19, sought=Sought(1.26, 19))
+    bench.show(frame=19, time_seek=TimeSeek(1.26, 19))
     assert field.value == 1.26
     client.change("Go to [s]", 1.25)
     until(lambda: bench.panel._time._typed == 1.25)
-    bench.show(frame=19, sought=Sought(1.25, 19))
+    bench.show(frame=19, time_seek=TimeSeek(1.25, 19))
     assert bench.panel._time._typed is None
     bench.show(frame=FRAMES - 1)
     assert field.value <= field.max

@@ -24,7 +24,7 @@ class FakeScene:
         self.now = Camera((2.0 / aspect, 0.0, 1.0), (0.0, 0.0, 0.0), 0.7)
         return self.now
 
-    def stand(self, camera):
+    def set_camera(self, camera):
         self.now = camera
 
     def camera(self):
@@ -48,23 +48,23 @@ def framing(scene, window):
 
 def test_a_view_is_taken_anew_when_the_picture_gets_narrower(framing, scene, window):
     framing.begin(PAIR)
-    framing.follow(PAIR)
+    framing.adapt_to_window(PAIR)
     assert scene.taken == [("3D", 1.5)]
     window.image_width = 600
-    framing.follow(PAIR)
+    framing.adapt_to_window(PAIR)
     assert scene.taken == [("3D", 1.5), ("3D", 0.75)]
-    framing.look(PAIR, "Top")
+    framing.set_view(PAIR, "Top")
     window.image_width = 1200
-    framing.follow(PAIR)
+    framing.adapt_to_window(PAIR)
     assert scene.taken[-2:] == [("Top", 0.75), ("Top", 1.5)]
 
 
 def test_where_there_was_nothing_to_see_the_first_view_waits_for_something(framing, scene):
     framing.begin(EMPTY)
-    framing.seen(EMPTY)
+    framing.retry_first_view(EMPTY)
     assert len(scene.taken) == 1
-    framing.seen(PAIR)
-    framing.seen(PAIR)
+    framing.retry_first_view(PAIR)
+    framing.retry_first_view(PAIR)
     assert len(scene.taken) == 2
 
 
@@ -72,17 +72,17 @@ def test_a_camera_that_a_person_has_moved_stays(framing, scene, window):
     framing.begin(PAIR)
     scene.now = SOMEWHERE
     window.image_width = 600
-    framing.follow(PAIR)
+    framing.adapt_to_window(PAIR)
     assert scene.now == SOMEWHERE
 
 
 def test_where_it_is_told_to_stand_it_stays_and_the_next_recording_begins_anew(
     framing, scene, window
 ):
-    framing.stand(SOMEWHERE)
+    framing.start_from(SOMEWHERE)
     framing.begin(PAIR)
     window.image_width = 600
-    framing.follow(PAIR)
+    framing.adapt_to_window(PAIR)
     assert scene.now == SOMEWHERE
     assert scene.taken == []
     framing.begin(PAIR)

@@ -6,7 +6,7 @@ import pytest
 from app.analysis.comparison import A
 from app.analysis.estimates import Estimates
 from app.panels.legend import LegendPanel
-from app.scene.legend import Legend, Mark, legend
+from app.scene.legend import Legend, LegendEntry, legend
 from app.scene.legend_html import html
 from app.scene.settings import (
     BY_CLUSTER,
@@ -27,7 +27,7 @@ def pair():
 
 
 def texts(pair, settings, limit=0.3):
-    return [mark.text for mark in legend(pair, settings, limit).marks]
+    return [entry.text for entry in legend(pair, settings, limit).entries]
 
 
 def test_it_says_what_is_drawn(pair):
@@ -58,25 +58,27 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
 
 
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
-    colours = {mark.text: mark.colour for mark in legend(pair, ViewSettings(), 0.3, A).marks}
+    colours = {entry.text: entry.colour for entry in legend(pair, ViewSettings(), 0.3, A).entries}
     palette = ViewSettings().palette
     assert colours["Flow of A: way in 0.5 s"] == palette.flow
     assert colours["Flow of B: way in 0.5 s"] == palette.second
     assert "Flow: way in 0.5 s" not in colours
     assert "Source of A: moving" in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
-    assert not [mark.text for mark in legend(pair, hidden, 0.3, A).marks if "Flow" in mark.text]
+    assert not [
+        entry.text for entry in legend(pair, hidden, 0.3, A).entries if "Flow" in entry.text
+    ]
 
 
 def test_the_picked_cluster_and_clusters_beyond_the_first_few_are_said(pair):
     picked = pair.flow.clusters[1]
     assert f"Picked: cluster {picked.index}" in [
-        mark.text for mark in legend(pair, ViewSettings(), 0.3, picked=picked).marks
+        entry.text for entry in legend(pair, ViewSettings(), 0.3, picked=picked).entries
     ]
     several = np.arange(len(pair.flow.label)) % 9
     flow = replace(pair.flow, cluster=several, label=np.full(len(several), 2))
-    marks = legend(replace(pair, flow=flow), ViewSettings(arrow_colours=BY_CLUSTER), 0.3).marks
-    assert "Flow: 3 more clusters" in [mark.text for mark in marks]
+    entries = legend(replace(pair, flow=flow), ViewSettings(arrow_colours=BY_CLUSTER), 0.3).entries
+    assert "Flow: 3 more clusters" in [entry.text for entry in entries]
 
 
 def test_nothing_drawn_needs_no_legend():
@@ -86,6 +88,6 @@ def test_nothing_drawn_needs_no_legend():
 def test_the_panel_shows_what_the_session_says(client):
     panel = LegendPanel(context(client))
     state = snapshot()
-    panel.show(type(state)(**{**vars(state), "legend": Legend((Mark((1, 2, 3), "a < b"),))}))
+    panel.show(type(state)(**{**vars(state), "legend": Legend((LegendEntry((1, 2, 3), "a < b"),))}))
     assert "a &lt; b" in client.legend
     assert "#010203" in client.legend

@@ -118,7 +118,7 @@ def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, 
     sizes, client.camera.look_at = [], np.zeros(3)
     for distance in (0.3, 4.0):
         client.camera.position = np.array([0.0, -distance, 0.0])
-        scene.focus()
+        scene.adapt_sizes()
         sizes.append(client.node(SOURCE_NODE).point_size / distance)
     assert sizes[0] == pytest.approx(sizes[1])
     # 5 of 720 pixels are a diameter of this part of the picture's height.
@@ -127,10 +127,10 @@ def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, 
 
 def test_turning_the_camera_sends_nothing(scene, client):
     client.camera.look_at, client.camera.position = np.zeros(3), np.array([2.0, 0.0, 0.0])
-    scene.focus()
+    scene.adapt_sizes()
     client.take_sent()
     client.camera.position = np.array([0.0, 2.0, 0.0])
-    scene.focus()
+    scene.adapt_sizes()
     assert client.take_sent() == []
 
 
@@ -138,7 +138,7 @@ def test_a_restored_camera_has_its_sizes_at_once(client, pair):
     scene = Scene(client, ViewSettings())
     scene.open(fake_recording())
     scene.show(pair)
-    scene.stand(Camera((0.0, 2.0, 0.0), (0.0, 0.0, 0.0), 0.5))
+    scene.set_camera(Camera((0.0, 2.0, 0.0), (0.0, 0.0, 0.0), 0.5))
     assert client.node(SOURCE_NODE).point_size == pytest.approx(5 / 720 * 2 * np.tan(0.25))
 
 

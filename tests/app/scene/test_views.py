@@ -7,11 +7,11 @@ from app.analysis.estimates import Estimates
 from app.scene.first_view import View
 from app.scene.lens import Lens
 from app.scene.settings import ViewSettings
-from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Film, named_view
+from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Projection, named_view
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 
-FILM = Film(np.radians(40), 1.5)
+FILM = Projection(np.radians(40), 1.5)
 
 
 @pytest.fixture(scope="module")
@@ -19,16 +19,16 @@ def pair():
     return Estimates().estimated(fake_opened(), 20, Parameters())
 
 
-def in_picture(view, points, film=FILM):
+def in_picture(view, points, projection=FILM):
     """Whether points (N, 3) are in the picture of a camera with z up."""
     forward = view.look_at - view.position
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
-    rays, slope = points - view.position, np.tan(film.fov / 2)
+    rays, slope = points - view.position, np.tan(projection.fov / 2)
     depth = rays @ forward
     high = np.abs(rays @ np.cross(right, forward)) <= depth * slope
-    return high & (np.abs(rays @ right) <= depth * slope * film.aspect)
+    return high & (np.abs(rays @ right) <= depth * slope * projection.aspect)
 
 
 @pytest.mark.parametrize(
@@ -36,10 +36,10 @@ def in_picture(view, points, film=FILM):
     [(TOP, 0.6), (TOP, 1.5), (TOP, 2.5), (FRONT, 0.6), (FRONT, 1.5), (FRONT, 2.5), (THREE_D, 1.5)],
 )
 def test_what_moves_is_in_the_picture(pair, name, aspect):
-    film = Film(FILM.fov, aspect)
-    view = named_view(name, pair, np.eye(3), film)
+    projection = Projection(FILM.fov, aspect)
+    view = named_view(name, pair, np.eye(3), projection)
     moving = pair.source.points[pair.truly_moving]
-    assert in_picture(view, moving, film).mean() > 0.9
+    assert in_picture(view, moving, projection).mean() > 0.9
 
 
 @pytest.mark.parametrize("name", [TOP, FRONT, THREE_D])

@@ -12,10 +12,10 @@ class Background:
     def __init__(self):
         self.asked, self.left = [], 0
 
-    def ask(self, who, opened, parameters, tell):
-        self.asked.append((parameters, tell))
+    def request(self, owner, opened, parameters, notify):
+        self.asked.append((parameters, notify))
 
-    def leave(self, who):
+    def cancel(self, owner):
         self.left += 1
 
 
@@ -25,11 +25,11 @@ def test_what_is_shown_is_asked_for_once_and_its_news_are_counted():
     followed, opened = FollowedSurvey(background, news.append), fake_opened()
     followed.follow(opened, Parameters())
     followed.follow(opened, Parameters())
-    ((parameters, tell),) = background.asked
+    ((parameters, notify),) = background.asked
     assert parameters == Parameters()
     survey = Survey(opened.recording, Parameters())
-    tell(survey)
-    tell(survey)
+    notify(survey)
+    notify(survey)
     assert followed.survey is None  # until the session takes the news
     for one in news:
         followed.receive(one)
@@ -49,7 +49,7 @@ def test_news_of_what_was_left_are_not_taken():
     background.asked[1][1](Survey(opened.recording, Parameters(n=3)))
     followed.receive(news[1])
     assert followed.survey is not None
-    followed.leave()
+    followed.stop()
     assert followed.survey is None
     assert background.left == 1
     followed.receive(news[1])

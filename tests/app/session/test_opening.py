@@ -23,7 +23,7 @@ class Library:
 def opening(*labels: str) -> Opening:
     library: Any = Library()
     made = Opening(library, ENTRIES)
-    made.want(labels)
+    made.request(labels)
     return made
 
 
@@ -31,13 +31,13 @@ def test_they_are_tried_in_their_order_until_one_opens():
     wanted = opening("bad", "a", "worse")
     assert wanted.label == "bad"
     assert wanted.try_next() is None
-    wanted.complain()  # there is another to try
+    wanted.raise_failure()  # there is another to try
     assert wanted.label == "a"
     assert wanted.try_next() == ENTRIES[0]
     assert wanted.label is None
     with pytest.raises(InputError, match=r"^bad is no recording\.$"):
-        wanted.complain()
-    wanted.complain()  # once
+        wanted.raise_failure()
+    wanted.raise_failure()  # once
 
 
 def test_where_none_opens_the_first_is_told_and_the_others_are_counted():
@@ -45,7 +45,7 @@ def test_where_none_opens_the_first_is_told_and_the_others_are_counted():
     assert wanted.try_next() is None
     assert wanted.try_next() is None
     with pytest.raises(InputError, match=r"^bad is no recording\. 1 more could not"):
-        wanted.complain()
+        wanted.raise_failure()
 
 
 def test_only_what_is_listed_is_tried():

@@ -7,14 +7,14 @@ LEFT = SavedSession("a", 3, Parameters(n=2))
 
 def test_what_was_left_is_handed_out_once():
     reloads = Reloads()
-    reloads.leave("token", LEFT)
+    reloads.keep("token", LEFT)
     assert reloads.take("token") == LEFT
     assert reloads.take("token") is None
 
 
 def test_unknown_tokens_get_nothing():
     reloads = Reloads()
-    reloads.leave("token", LEFT)
+    reloads.keep("token", LEFT)
     assert reloads.take("another") is None
     assert reloads.take(None) is None
 
@@ -22,5 +22,5 @@ def test_unknown_tokens_get_nothing():
 def test_the_oldest_are_forgotten():
     reloads = Reloads(size=2)
     for token in "abc":
-        reloads.leave(token, LEFT)
+        reloads.keep(token, LEFT)
     assert [reloads.take(token) for token in "abc"] == [None, LEFT, LEFT]

@@ -21,7 +21,7 @@ def made(
     n: int = 8,
     noise: str = "paper",
     imperfections: tuple[str, ...] = (),
-    why: str | None = None,
+    diagnosis: str | None = None,
     metrics: Mapping[str, float | None] = MappingProxyType({}),
 ) -> Row:
     """A row; without metrics nothing got a flow."""
@@ -33,7 +33,7 @@ def made(
         trial,
         replace(Parameters(), method=method, n=n),
         {"pairs": 7, "points_with_flow": 0, **undefined, **metrics},
-        why,
+        diagnosis,
     )
 
 

@@ -13,12 +13,12 @@ import pytest
 from app.errors import InputError
 from app.study.execution import outcomes
 from app.study.rows import Row, rows_of
-from app.study.work import Ask, Recorded, Simulated, Work, do
+from app.study.work import EvaluationCase, Recorded, Simulated, Work, run_work
 from estimator import Parameters
 from tests.app.waiting import until
 
 ROOT = Path(__file__).parents[3]
-ASKS = (Ask(Parameters()), Ask(Parameters(method="baseline")))
+ASKS = (EvaluationCase(Parameters()), EvaluationCase(Parameters(method="baseline")))
 WORKS = [Work(Simulated("towards", 0.3, trial), ASKS) for trial in (1, 2)]
 
 
@@ -34,7 +34,7 @@ def one_core() -> list[Row]:
     assert len(found) == 4
     assert all(row.metrics["points_with_flow"] for row in found)
     # With the baseline errors are large because what rests is moved, too.
-    assert [row.why is None for row in found] == [True, True, False, True]
+    assert [row.diagnosis is None for row in found] == [True, True, False, True]
     return found
 
 
@@ -98,7 +98,7 @@ def test_a_broken_recording_costs_only_itself(tmp_path: Path):
 
 
 def test_a_worker_of_another_version_is_refused():
-    outcome = do(WORKS[0], "another")
+    outcome = run_work(WORKS[0], "another")
     assert "another version" in str(outcome.failure)
     assert not outcome.results
 
@@ -108,7 +108,7 @@ def test_an_unforeseen_error_is_a_failure_of_that_recording(monkeypatch: pytest.
         raise ZeroDivisionError("oh")
 
     monkeypatch.setattr("app.study.work.evaluate_all", explode)
-    (outcome,) = outcomes([replace(WORKS[0], asks=ASKS[:1])], 1)
+    (outcome,) = outcomes([replace(WORKS[0], cases=ASKS[:1])], 1)
     assert outcome.failure == "towards_0.3_1: ZeroDivisionError: oh"
 
 
@@ -116,11 +116,11 @@ def test_the_sweep_is_only_for_the_scenario_that_is_swept():
     ten = Parameters(n=10)
     work = Work(Simulated("towards", 0.3, 1), ASKS, sweep=(Parameters(), ten))
     assert work.wanted("sideways") == ASKS
-    assert work.wanted("towards") == (*ASKS, Ask(ten, resting=False))
+    assert work.wanted("towards") == (*ASKS, EvaluationCase(ten, resting=False))
 
 
 def test_where_an_alignment_is_wrong_fitness_and_displacement_are_said(one_core: list[Row]):
-    (why,) = (row.why for row in one_core if row.why)
+    (why,) = (row.diagnosis for row in one_core if row.diagnosis)
     assert re.fullmatch(
         r"In \d of \d pairs with a flow ICP aligns the moving cluster wrongly: fitness "
         r"0\.\d\d to 0\.\d\d, mean displacement (0\.\d\d) to 0\.\d\d m, where it went 0\.16 m\.",
@@ -130,11 +130,11 @@ def test_where_an_alignment_is_wrong_fitness_and_displacement_are_said(one_core:
 
 
 def test_where_nothing_got_a_flow_it_is_said_what_became_of_what_moves():
-    far = (Ask(Parameters(n=10), resting=False),)
+    far = (EvaluationCase(Parameters(n=10), resting=False),)
     (outcome,) = outcomes([Work(Simulated("towards", 0.3, 1), far)], 1)
     (result,) = outcome.results
     assert result.metrics is not None
     assert result.metrics["pairs"] == 5
     assert result.metrics["points_with_flow"] == 0
     assert result.metrics["angle_deg"] is None
-    assert "moving points: Unassigned" in str(result.why)
+    assert "moving points: Unassigned" in str(result.diagnosis)

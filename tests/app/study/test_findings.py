@@ -19,12 +19,12 @@ def y(angle: float, error: float, method: str = "paper"):
 
 def test_errors_are_judged_against_the_papers_mean_over_speeds():
     # The paper's means: 8.754 deg, 0.04475 m/s.
-    assert "8.8 deg and 0.045 m/s, of which these are 1.03 and 1.12 times: within 1.5" in said(
+    assert "8.8 deg and 0.045 m/s; ours are 1.03 and 1.12 times as large: within 1.5" in said(
         *y(9.0, 0.050)
     )
     assert "beyond 1.5 times" in said(*y(9.0, 0.068))
     assert "beyond 1.5 times" in said(*y(13.2, 0.045))
-    assert "and clearly smaller. Why is not known" in said(*y(4.0, 0.040))
+    assert "and clearly smaller. The reason is not known" in said(*y(4.0, 0.040))
     assert "and clearly smaller" not in said(*y(9.0, 0.040))
 
 
@@ -65,8 +65,9 @@ def test_whether_errors_go_with_the_speed_as_the_papers_do_is_said():
         5.9, 7.3, 4.9, 7.5
     )
     assert "here it falls, too (9.0, 8.0, 7.0, 6.0 deg)." in x(9, 8, 7, 6)
-    assert "here it stays (9.0, 8.0, 7.0, 8.0 deg), and why it differs is not known." in x(
-        9, 8, 7, 8
+    assert (
+        "here it stays (9.0, 8.0, 7.0, 8.0 deg); the reason for the difference is not known."
+        in x(9, 8, 7, 8)
     )
     assert "from the slowest" not in said(*y(9.0, 0.05))
 
@@ -94,7 +95,7 @@ def test_detection_at_small_n_is_said():
 
 
 def test_what_could_not_be_computed_is_said_with_its_reason():
-    rows = [made(n=10, why=WHY), made(n=8, metrics=good(6.0, 0.03))]
+    rows = [made(n=10, diagnosis=WHY), made(n=8, metrics=good(6.0, 0.03))]
     text = said(*rows, methods=("paper",), sweep=(8, 10))
     assert "could not be computed at n = 10 and 0.30 m/s: 7 pairs count" in text
     assert "the object goes 0.20 m" in text
@@ -115,7 +116,11 @@ def test_a_trial_that_decides_its_cell_is_named():
     text = said(*rows, made(trial=4, metrics=good(29.0, 0.29)))
     assert "at 0.30 m/s: trial 4 alone has 29.0 deg and 0.290 m/s" in text
     assert "median of the trials is 6.0 deg and 0.030 m/s" in text
-    wrong = replace(made(trial=4, metrics=good(29.0, 0.29)), why="In 3 of 6 pairs it went wrong.")
+    wrong = replace(
+        made(trial=4, metrics=good(29.0, 0.29)), diagnosis="In 3 of 6 pairs it went wrong."
+    )
     assert "decides mean and std of its cell. In 3 of 6 pairs it went wrong." in said(*rows, wrong)
-    near = replace(made(trial=4, metrics=good(9.0, 0.08)), why="In 1 of 6 pairs it went wrong.")
+    near = replace(
+        made(trial=4, metrics=good(9.0, 0.08)), diagnosis="In 1 of 6 pairs it went wrong."
+    )
     assert "trial 4 has 9.0 deg and 0.080 m/s. In 1 of 6 pairs" in said(*rows, near)

@@ -32,7 +32,7 @@ def test_a_page_is_well_formed_and_shows_whatever_names_hold():
         "t",
         NASTY,
         NASTY,
-        (Column("name", NASTY), Column("a", "a", ".1f", NASTY, theirs=True)),
+        (Column("name", NASTY), Column("a", "a", ".1f", NASTY, from_paper=True)),
         ({"name": NASTY, "a": 1.0}, {"name": "b", "a": None}),
     )
     blocks = [

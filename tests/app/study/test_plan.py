@@ -22,10 +22,10 @@ def test_by_default_these_are_the_papers_sixty_recordings():
         "robot_moving",
     }
     assert {source.speed for source in simulated(PLAN)} == {0.15, 0.20, 0.25, 0.30}
-    assert [ask.parameters.method for ask in works[0].asks] == ["paper", "baseline"]
+    assert [case.parameters.method for case in works[0].cases] == ["paper", "baseline"]
     assert len(works[0].wanted("towards")) == 20
     assert len(works[0].wanted("sideways")) == 2
-    assert {ask.parameters.gamma for ask in works[0].wanted("towards")} == {0.6}
+    assert {case.parameters.gamma for case in works[0].wanted("towards")} == {0.6}
 
 
 def test_every_scenario_has_its_own_speeds_unless_others_are_asked_for():

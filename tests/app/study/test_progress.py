@@ -1,14 +1,14 @@
 import pytest
 
 from app.study.progress import Progress, duration
-from app.study.work import Ask, Simulated, Source, Work
+from app.study.work import EvaluationCase, Simulated, Source, Work
 from estimator import Parameters
 from tests.app.terminal.screen import Screen
 
 
 def works(*names: str, sweep: int = 0) -> list[Work]:
     values = tuple(Parameters(n=n) for n in range(1, sweep + 1))
-    return [Work(_source(name), (Ask(Parameters()),), values) for name in names]
+    return [Work(_source(name), (EvaluationCase(Parameters()),), values) for name in names]
 
 
 def _source(name: str) -> Source:

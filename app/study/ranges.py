@@ -1,7 +1,7 @@
-"""Numbers as people say them."""
+"""Ranges of numbers as text."""
 
 
 def span(found: list[float], form: str) -> str:
-    """From the least to the most, once where people read the same."""
+    """Least and greatest value as text, or one number if both read the same."""
     low, high = format(min(found), form), format(max(found), form)
     return low if low == high else f"{low} to {high}"

@@ -1,4 +1,4 @@
-"""Putting nodes of the scene at their poses."""
+"""Names and poses of scene nodes."""
 
 from collections.abc import Sequence
 
@@ -13,14 +13,14 @@ UNKNOWN: Transform = np.full((4, 4), np.nan)
 
 
 def node_name(index: int, name: str) -> str:
-    """Name of a scene node for thing number `index`; a slash would put it below another node."""
+    """Unique name of a scene node; a slash would make it the child of another node."""
     return f"{index}_{name.replace('/', '_')}"
 
 
-def place(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) -> None:
-    """Move nodes to `poses` (S, 4, 4) in their parents' frames; viser sends only what has changed.
+def set_poses(nodes: Sequence[viser.SceneNodeHandle], poses: NDArray[np.float64]) -> None:
+    """Set the poses (S, 4, 4) of nodes in their parents' frames; viser sends changes only.
 
-    A node whose pose is not known, NaN, is hidden.
+    A node whose pose is unknown (NaN) is hidden.
     """
     known: NDArray[np.bool_] = np.all(np.isfinite(poses), axis=(1, 2))
     turns = vtf.SO3.from_matrix(np.where(known[:, None, None], poses, np.eye(4))[:, :3, :3]).wxyz

@@ -1,4 +1,4 @@
-"""Pictures of the scene, rendered by the browser that shows it."""
+"""Rendering of the scene to pictures, in the client's browser."""
 
 import numpy as np
 import viser
@@ -13,12 +13,12 @@ from app.scene.scene import Scene
 _TIMEOUT = 40.0  # seconds; a tab in the background never renders
 
 
-class Photographer:
-    """Takes pictures of a scene.
+class SceneRenderer:
+    """Renders a scene to pictures of any size and view.
 
     Args:
-        client: whose browser renders them.
-        scene: that it shows.
+        client: whose browser renders.
+        scene: drawn in that browser.
     """
 
     def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
@@ -28,18 +28,18 @@ class Photographer:
         """Width and height of the scene in the page, CSS pixels."""
         return canvas_size(self._client)
 
-    def take(self, pair: Pair, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
-        """Pixels (height, width, 4), transparent where nothing is.
+    def render(self, pair: Pair, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
+        """RGBA pixels (height, width, 4), transparent where nothing is drawn.
 
         Args:
-            pair: that the scene shows.
-            view: name of the view, None for where the camera is.
+            pair: drawn in the scene.
+            view: name of the view, None for the current camera.
             width: in pixels.
             height: in pixels.
 
         Raises:
             RuntimeError: the browser has gone.
-            TimeoutError: it gives no picture, such as one whose tab is in the background.
+            TimeoutError: it returns no picture in time, as when its tab is in the background.
         """
         camera = self._client.camera
         if view is None:
@@ -47,10 +47,10 @@ class Photographer:
             fov = float(camera.fov)
         else:
             placed, fov = self._scene.view(pair, view, width / height)
-        # The page makes points as large as they have to be in its own window.
+        # The page sizes points for its own window, not for the picture.
         larger = height / self.size()[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
-        with self._scene.posed(placed, fov, larger, height):
-            self._render(placed, fov, 8, 8)  # sizes are taken over one image later than the rest
+        with self._scene.sized_for_picture(placed, fov, larger, height):
+            self._render(placed, fov, 8, 8)  # new sizes take effect one image late
             return self._render(placed, fov, height, width)
 
     def _render(self, placed: View, fov: float, height: int, width: int) -> NDArray[np.uint8]:
@@ -66,7 +66,7 @@ class Photographer:
 
 
 def looking(view: View) -> NDArray[np.float64]:
-    """Orientation (3, 3) of a camera, x right, y down, z forward, that is held upright."""
+    """Orientation (3, 3) of an upright camera: x right, y down, z forward."""
     forward = view.look_at - view.position
     forward = forward / np.linalg.norm(forward)
     right = np.cross(forward, [0.0, 0.0, 1.0])
