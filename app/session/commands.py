@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
 
-from app.session.command import LatestWins, Repeated
+from app.session.command import Background, LatestWins, Repeated
 from app.session.followed_survey import SurveyNews
 from app.session.links import SavedSession
 from app.session.tasks import TaskEvent
@@ -149,7 +149,7 @@ class ChangeView:
 
 
 @dataclass(frozen=True)
-class TakeSurveyNews(LatestWins):
+class TakeSurveyNews(Background, LatestWins):
     """Take note that the background has filled more of a survey."""
 
     news: SurveyNews
@@ -160,7 +160,7 @@ class TakeSurveyNews(LatestWins):
 
 
 @dataclass(frozen=True)
-class TakeTaskNews:
+class TakeTaskNews(Background):
     """Take note of how far background tasks are, and hand out their results."""
 
     events: tuple[TaskEvent, ...]
