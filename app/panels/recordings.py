@@ -23,6 +23,7 @@ class RecordingsPanel(Panel):
         self._list = gui.add_dropdown(
             "Recording", labels, hint="The recordings of the opened files and folders."
         )
+        self._shown: Opened | None = None
         self._about = gui.add_html(_lines(["Opening …"]))
 
         @self._list.on_update
@@ -31,15 +32,19 @@ class RecordingsPanel(Panel):
                 post(OpenRecording(self._list.value))
 
     def announce(self, status: Status) -> None:
-        """Say what is being opened, which may take a while, or what is open."""
-        if status.opening is not None:
-            said = [f"Opening {status.opening} …"]
+        """Say what is being opened, until the first of it is shown, or that nothing is open."""
+        opened, opening = status.opened, status.opening
+        if opening is None and opened is not None and opened is not self._shown:
+            opening = opened.entry.label
+        if opening is not None:
+            self._about.content = _lines([f"Opening {opening} …"])
         else:
-            said = describe(status.opened) if status.opened else ["No recording is open."]
-        self._about.content = _lines(said)
+            self._about.content = _lines(describe(opened) if opened else ["No recording is open."])
 
     def show(self, snapshot: Snapshot) -> None:
-        """Choose what is open, also after a recording that could not be opened."""
+        """Describe and choose what is open, also after a recording that could not be opened."""
+        self._shown = snapshot.opened
+        self._about.content = _lines(describe(snapshot.opened))
         show_value(self._list, snapshot.opened.entry.label)
 
 
