@@ -1,13 +1,15 @@
 """Values that a session shows in controls which a person may be using at the same moment."""
 
+import asyncio
 import threading
 from typing import Any
 
 import viser
 
-from app.browser.internals import call_in_event_loop
+from app.browser.internals import call_in_event_loop, send_value
 
 _PATIENCE = 2.0  # seconds
+_QUIET = 0.3  # seconds after a person's last change, so that typing is not disturbed
 
 
 def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
@@ -25,8 +27,30 @@ def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
     done = threading.Event()
 
     def assign() -> None:
+        if "repeats" not in vars(control):
+            vars(control)["repeats"] = _Repeats(control)
         control.value = value
         done.set()
 
     call_in_event_loop(control, assign)
     done.wait(_PATIENCE)
+
+
+class _Repeats:
+    """Values of a control that are sent to the page again after a person's changes.
+
+    A value on its way to the page may arrive there after a person has chosen another one. The page
+    would go on showing the older, while the session has taken the person's.
+    """
+
+    def __init__(self, control: viser.GuiInputHandle[Any]) -> None:
+        self._pending: asyncio.TimerHandle | None = None
+
+        @control.on_update
+        async def _(event: viser.GuiEvent) -> None:
+            if event.client_id is None:
+                return
+            if self._pending is not None:
+                self._pending.cancel()
+            loop = asyncio.get_running_loop()
+            self._pending = loop.call_later(_QUIET, lambda: send_value(control))

@@ -12,7 +12,7 @@ from typing import Any
 
 import viser
 import websockets.asyncio.server as websocket_server
-from viser._messages import RunJavascriptMessage
+from viser._messages import GuiUpdateMessage, RunJavascriptMessage
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
@@ -62,6 +62,31 @@ const waiting = setInterval(() => {
 in its own way until the browser's next image. Messages that are taken at once leave no such image
 between."""
 
+SEND_AT_ONCE = """
+if (!window.tofscopeSends) {
+  window.tofscopeSends = true;
+  const viewer = window.__viserMutable, wait = window.setTimeout;
+  let send = viewer.sendMessage, changed = false;
+  Object.defineProperty(viewer, "sendMessage", {
+    get: () => message => {
+      changed = message.type === "GuiUpdateMessage";
+      queueMicrotask(() => { changed = false; });
+      send(message);
+    },
+    set: next => { send = next; },  // viser sets it with each connection
+  });
+  window.setTimeout = (action, delay, ...values) => {
+    if (!changed || delay !== 50) return wait(action, delay, ...values);
+    changed = false;
+    action();
+    return 0;
+  };
+}
+"""
+"""Script that lets the page send every change of a control. After one, viser waits for 50 ms and
+then sends the last of those made meanwhile, of whatever control: a click on a button and a number
+that is typed get lost between others, the more the busier the page is."""
+
 CONNECTION_LOGGER = "websockets.server"
 """Logger that calls a connection an error which ends before it asked for anything: browsers make
 such connections."""
@@ -83,6 +108,12 @@ def call_in_event_loop(control: viser.GuiInputHandle[Any], action: Callable[[], 
     viser puts what a person chose into the control there, and calls back at once.
     """
     control._impl.gui_api._event_loop.call_soon_threadsafe(action)
+
+
+def send_value(control: viser.GuiInputHandle[Any]) -> None:
+    """Send the value of a control to the page again, which viser does only with another one."""
+    message = GuiUpdateMessage(control._impl.uuid, {"value": control.value})
+    control._impl.gui_api._websock_interface.queue_message(message)
 
 
 def run_script(client: viser.ClientHandle, script: str) -> None:

@@ -4,7 +4,13 @@ from uuid import uuid4
 
 import viser
 
-from app.browser.internals import SCENE_CANVAS, SLIDER_OR_TAB, STORAGE_PREFIX, run_script
+from app.browser.internals import (
+    SCENE_CANVAS,
+    SEND_AT_ONCE,
+    SLIDER_OR_TAB,
+    STORAGE_PREFIX,
+    run_script,
+)
 
 # viser gives its hotkeys every key that is not typed into a text field, and arrow keys to the
 # camera as well. Events bubble from the element with the focus over `body`, behind which nothing
@@ -70,6 +76,11 @@ const link = `${location.origin}${location.pathname}?%s=%s`;
 const show = () => window.prompt("Copy this link:", link);
 if (navigator.clipboard) navigator.clipboard.writeText(link).catch(show); else show();
 """
+
+
+def set_up_sending(client: viser.ClientHandle) -> None:
+    """Let the page send every change of a control, however fast they follow each other."""
+    run_script(client, SEND_AT_ONCE)
 
 
 def set_up_keys(client: viser.ClientHandle) -> None:

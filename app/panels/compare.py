@@ -58,15 +58,15 @@ class DrawBoth(LatestWins):
 
 
 @dataclass(frozen=True)
-class ToggleBoth(LatestWins):
-    """Draw the flow of both where one is drawn, and the other way round."""
+class ToggleBoth(Repeated):
+    """Draw the flow of both where one is drawn, and the other way round, this many times."""
 
     def apply(self, workbench: Workbench) -> None:
         """Draw so, or say that there is no B."""
         before = workbench.tuning.comparison
         if before is None:
             raise InputError("There is no B to draw; copy A to B first.")
-        workbench.tuning.comparison = replace(before, both=not before.both)
+        workbench.tuning.comparison = replace(before, both=before.both ^ bool(self.times % 2))
 
 
 @dataclass(frozen=True)

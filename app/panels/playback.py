@@ -80,7 +80,7 @@ class PlaybackPanel(Panel):
 
         @jumps.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(JumpToMotion(_JUMPS[jumps.value]))
+            post(JumpToMotion((_JUMPS[jumps.value],)))
 
         @self._speed.on_update
         async def _(event: viser.GuiEvent) -> None:

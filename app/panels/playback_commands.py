@@ -10,7 +10,7 @@ from viser import Icon
 
 from app.analysis.timeline import neighbour
 from app.session.clock import SPEEDS
-from app.session.command import Command, LatestWins
+from app.session.command import Command, Repeated
 from app.session.commands import TogglePlay, seek, step
 from app.session.outbox import Notice
 from app.session.workbench import Workbench
@@ -37,25 +37,23 @@ class ChangePlayback:
 
 
 @dataclass(frozen=True)
-class JumpToMotion(LatestWins):
-    """Go to where something begins to move, onwards (1) or backwards (-1)."""
+class JumpToMotion:
+    """Go to where something begins to move, as often as there are directions.
 
-    direction: int
+    Attributes:
+        directions: onwards (1) or backwards (-1).
+    """
+
+    directions: tuple[int, ...]
+
+    def merged_with(self, earlier: Self) -> Self:
+        """Both, one after the other."""
+        return type(self)(earlier.directions + self.directions)
 
     def apply(self, workbench: Workbench) -> None:
         """Go there, or say that there is no such place."""
-        if workbench.opened is None:
-            return
-        timeline = workbench.timeline.of(workbench.opened, workbench.tuning.parameters)
-        frame = neighbour(timeline.moving, workbench.frame, self.direction)
-        if frame is None:
-            where = "after" if self.direction > 0 else "before"
-            known = workbench.opened.recording.has_truth
-            far = "" if known else " in the frames estimated so far"
-            said = f"Nothing begins to move {where} this frame{far}."
-            workbench.outbox.append(Notice("Motion", said, replaces=True))
-        else:
-            workbench.seek(frame)
+        for direction in self.directions:
+            _jump(workbench, direction)
 
 
 @dataclass(frozen=True)
@@ -77,13 +75,14 @@ class ChangeSpeed:
 
 
 @dataclass(frozen=True)
-class ToggleLoop(LatestWins):
-    """Loop where it does not, and the other way round."""
+class ToggleLoop(Repeated):
+    """Loop where it does not, and the other way round, this many times."""
 
     def apply(self, workbench: Workbench) -> None:
         """Play so."""
         clock = workbench.clock
-        clock.change({"loop": not clock.playback.loop}, workbench.frame, monotonic())
+        loop = clock.playback.loop ^ bool(self.times % 2)
+        clock.change({"loop": loop}, workbench.frame, monotonic())
 
 
 def speed_name(speed: float) -> str:
@@ -123,8 +122,23 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     add("Ten frames on (Shift →)", step(10), "arrowright", "shift", Icon.CHEVRONS_RIGHT)
     add("First frame", seek(0), "home", icon=Icon.PLAYER_SKIP_BACK)
     add("Last frame", seek(_LAST), "end", icon=Icon.PLAYER_SKIP_FORWARD)
-    add("Next motion", JumpToMotion(1), "M", icon=Icon.RUN)
-    add("Previous motion", JumpToMotion(-1), "M", "shift", icon=Icon.RUN)
+    add("Next motion", JumpToMotion((1,)), "M", icon=Icon.RUN)
+    add("Previous motion", JumpToMotion((-1,)), "M", "shift", icon=Icon.RUN)
     add("Slower", ChangeSpeed(-1), "J", "shift", Icon.MULTIPLIER_0_5X)
     add("Faster", ChangeSpeed(1), "L", "shift", Icon.MULTIPLIER_2X)
     add("Loop on or off", ToggleLoop(), "R", icon=Icon.REPEAT)
+
+
+def _jump(workbench: Workbench, direction: int) -> None:
+    if workbench.opened is None:
+        return
+    timeline = workbench.timeline.of(workbench.opened, workbench.tuning.parameters)
+    frame = neighbour(timeline.moving, workbench.frame, direction)
+    if frame is None:
+        where = "after" if direction > 0 else "before"
+        known = workbench.opened.recording.has_truth
+        far = "" if known else " in the frames estimated so far"
+        said = f"Nothing begins to move {where} this frame{far}."
+        workbench.outbox.append(Notice("Motion", said, replaces=True))
+    else:
+        workbench.seek(frame)

@@ -1,5 +1,6 @@
 """List of recordings, and a description of the one that is open."""
 
+from collections.abc import Sequence
 from html import escape
 
 import viser
@@ -9,6 +10,8 @@ from app.browser.controls import show_value
 from app.panels.panel import Panel, PanelContext
 from app.session.commands import OpenRecording
 from app.session.snapshot import Snapshot, Status
+
+_LINES = 3  # of the longest description
 
 
 class RecordingsPanel(Panel):
@@ -20,7 +23,8 @@ class RecordingsPanel(Panel):
         self._list = gui.add_dropdown(
             "Recording", labels, hint="The recordings of the opened files and folders."
         )
-        self._about = gui.add_html(_line("Opening …"))
+        self._shown: Opened | None = None
+        self._about = gui.add_html(_lines(["Opening …"]))
 
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
@@ -28,15 +32,19 @@ class RecordingsPanel(Panel):
                 post(OpenRecording(self._list.value))
 
     def announce(self, status: Status) -> None:
-        """Say what is being opened, which may take a while, or what is open."""
-        if status.opening is not None:
-            said = [f"Opening {status.opening} …"]
+        """Say what is being opened, until the first of it is shown, or that nothing is open."""
+        opened, opening = status.opened, status.opening
+        if opening is None and opened is not None and opened is not self._shown:
+            opening = opened.entry.label
+        if opening is not None:
+            self._about.content = _lines([f"Opening {opening} …"])
         else:
-            said = describe(status.opened) if status.opened else ["No recording is open."]
-        self._about.content = "".join(_line(escape(text)) for text in said)
+            self._about.content = _lines(describe(opened) if opened else ["No recording is open."])
 
     def show(self, snapshot: Snapshot) -> None:
-        """Choose what is open, also after a recording that could not be opened."""
+        """Describe and choose what is open, also after a recording that could not be opened."""
+        self._shown = snapshot.opened
+        self._about.content = _lines(describe(snapshot.opened))
         show_value(self._list, snapshot.opened.entry.label)
 
 
@@ -58,5 +66,8 @@ def describe(opened: Opened) -> list[str]:
     return lines
 
 
-def _line(text: str) -> str:
-    return f'<div style="font-size: 0.75rem; padding: 0 1em; opacity: 0.75">{text}</div>'
+def _lines(said: Sequence[str]) -> str:
+    lines = "".join(f"<div>{escape(text)}</div>" for text in said)
+    # As high with one line as with three: what a person is about to click on stays in place.
+    style = f"font-size: 0.75rem; line-height: 1.2rem; min-height: {1.2 * _LINES}rem"
+    return f'<div style="{style}; padding: 0 1em; opacity: 0.75">{lines}</div>'

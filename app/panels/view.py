@@ -14,7 +14,7 @@ from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS
 from app.scene.theme import apply_theme
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
-from app.session.command import LatestWins, Repeated
+from app.session.command import Background, LatestWins, Repeated
 from app.session.commands import ChangeView
 from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
@@ -41,7 +41,7 @@ class SetView(LatestWins):
 
 
 @dataclass(frozen=True)
-class CameraMoved(LatestWins):
+class CameraMoved(Background, LatestWins):
     """The camera has come nearer or gone away, or its picture has got another shape."""
 
     def apply(self, workbench: Workbench) -> None:

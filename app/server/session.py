@@ -96,10 +96,11 @@ class Session:
             if saved and saved.label not in labels:
                 self._say(f"The recording {saved.label} is not among those that are listed here.")
                 saved = None  # nor do its parameters suit another one
-            workbench, page = self._build(entries, saved)
+            # Before there is a page, so that what a person does there comes after it.
             self._queue.post(OpenFirst((*([saved.label] if saved else []), *labels)))
             if saved:
                 self._queue.post(Restore(saved))
+            workbench, page = self._build(entries, saved)
             try:
                 self._serve(workbench, page)
                 if leaving := workbench.saved():

@@ -31,6 +31,13 @@ class LatestWins:
         return self
 
 
+class Background:
+    """Command that no person gives and whose place among theirs does not matter.
+
+    Such commands may come in between a person's at any rate.
+    """
+
+
 @dataclass(frozen=True)
 class Repeated:
     """Command that counts as often as it was posted.

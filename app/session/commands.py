@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
 
-from app.session.command import LatestWins, Repeated
+from app.session.command import Background, LatestWins, Repeated
 from app.session.followed_survey import SurveyUpdate
 from app.session.links import SavedSession
 from app.session.tasks import TaskEvent
@@ -149,7 +149,7 @@ class ChangeView:
 
 
 @dataclass(frozen=True)
-class ReceiveSurveyUpdate(LatestWins):
+class ReceiveSurveyUpdate(Background, LatestWins):
     """Take note that the background has filled more of a survey."""
 
     news: SurveyUpdate
@@ -160,7 +160,7 @@ class ReceiveSurveyUpdate(LatestWins):
 
 
 @dataclass(frozen=True)
-class ReceiveTaskEvents:
+class ReceiveTaskEvents(Background):
     """Take note of how far background tasks are, and hand out their results."""
 
     events: tuple[TaskEvent, ...]

@@ -2,35 +2,39 @@
 
 import threading
 
-from app.session.command import Command
+from app.session.command import Background, Command
 
 
 class CommandQueue:
-    """Thread-safe queue of pending commands, at most one of each kind.
+    """Thread-safe queue of pending commands, in the order in which a person meant them.
 
-    However many commands are posted, those of one kind are merged, so that nothing piles up.
+    However many commands of a kind follow each other, they are merged into one, so that a slider's
+    do not pile up. They are not merged past a command of another kind, which may mean something
+    else after them than before; commands of the background depend on no others.
     """
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
-        self._pending: dict[type[Command], Command] = {}
+        self._pending: list[Command] = []
         self._closed = False
 
     def post(self, command: Command) -> None:
-        """Add a command; a pending one of its kind is merged into it."""
-        kind = type(command)
+        """Add a command, merged with the last pending one where that is of its kind."""
         with self._changed:
-            earlier = self._pending.pop(kind, None)
-            self._pending[kind] = command if earlier is None else command.merged_with(earlier)
+            place = self._place(command)
+            if place is None:
+                self._pending.append(command)
+            else:
+                self._pending[place] = command.merged_with(self._pending[place])
             self._changed.notify()
 
     def has(self, kind: type[Command]) -> bool:
         """Whether a command of this kind is pending."""
         with self._changed:
-            return kind in self._pending
+            return any(type(command) is kind for command in self._pending)
 
     def take(self, timeout: float | None = None) -> list[Command] | None:
-        """Take all commands, in the order of their last post.
+        """Take all commands, in their order.
 
         Args:
             timeout: seconds to wait for one at most; None waits as long as it takes.
@@ -42,8 +46,7 @@ class CommandQueue:
             self._changed.wait_for(lambda: self._pending or self._closed, timeout)
             if self._closed:
                 return None
-            commands = list(self._pending.values())
-            self._pending.clear()
+            commands, self._pending = self._pending, []
             return commands
 
     def close(self) -> None:
@@ -51,3 +54,13 @@ class CommandQueue:
         with self._changed:
             self._closed = True
             self._changed.notify_all()
+
+    def _place(self, command: Command) -> int | None:
+        """Index of the pending command that this one is merged with, None where there is none."""
+        for index in reversed(range(len(self._pending))):
+            earlier = self._pending[index]
+            if type(earlier) is type(command):
+                return index
+            if not isinstance(earlier, Background) and not isinstance(command, Background):
+                return None
+        return None

@@ -74,7 +74,7 @@ def server(
 @pytest.fixture
 def context(chromium: Browser) -> Iterator[BrowserContext]:
     context = chromium.new_context(viewport={"width": 900, "height": 700}, accept_downloads=True)
-    context.set_default_timeout(60_000)
+    context.set_default_timeout(10_000)
     context.add_init_script(NO_DRAWING)
     yield context
     context.close()

@@ -32,7 +32,7 @@ class Tab:
         self.page.wait_for_selector("canvas[data-engine]")
         self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)
 
-    def until(self, condition: Callable[[], Any], timeout: float = 60.0) -> None:
+    def until(self, condition: Callable[[], Any], timeout: float = 10.0) -> None:
         end = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < end, "it did not come true in time"
@@ -79,12 +79,23 @@ class Tab:
         slider.focus()
         for _ in range(times):
             slider.press(key)
-            self.page.wait_for_timeout(60)  # viser's page sends at most 20 changes a second
 
     def value(self, label: str) -> float:
         return float(
             self.row(label).locator("[role=slider]").get_attribute("aria-valuenow") or "nan"
         )
+
+    def open(self, scenario: str) -> None:
+        """Choose a sample and wait until its first frame is shown."""
+        self.choose(scenario)
+        self.until(lambda: self.has_text(f"Simulated: {scenario}"))
+        self.until(self._at_rest)
+
+    def _at_rest(self) -> bool:
+        """Whether slider and text say the same frame, and go on saying it."""
+        frame = self.value("Frame")
+        self.page.wait_for_timeout(300)
+        return self.value("Frame") == frame and self.has_text(f"Frame {frame:.0f} of")
 
     def choose(self, recording: str) -> None:
         self.row("Recording").locator("input").first.click()

@@ -135,7 +135,7 @@ def test_two_views_in_the_dark_stand_side_by_side(sample: Path, tmp_path: Path):
 
 def test_the_app_makes_an_offline_page_while_the_session_goes_on(tab: Tab):
     frame = tab.value("Frame")
-    with tab.page.expect_download(timeout=90_000) as download:
+    with tab.page.expect_download() as download:
         tab.page.get_by_role("button", name="Save offline page").click()
         tab.set_slider("Frame", "ArrowLeft", times=2)
     assert tab.value("Frame") == frame - 2

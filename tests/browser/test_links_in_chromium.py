@@ -28,8 +28,7 @@ def test_a_link_leads_another_tab_to_the_same_place(
     tab: Tab, context: BrowserContext, server: Server
 ):
     context.grant_permissions(["clipboard-read", "clipboard-write"])
-    tab.choose("sideways")
-    tab.until(lambda: tab.has_text("Simulated: sideways"))
+    tab.open("sideways")
     tab.set_slider("n", "ArrowLeft", times=2)
     tab.set_slider("Frame", "ArrowLeft", times=3)
     seen, frame = move_camera(tab), tab.value("Frame")

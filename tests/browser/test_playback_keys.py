@@ -42,8 +42,7 @@ def test_a_slider_that_has_the_focus_keeps_its_keys(tab: Tab):
 
 
 def test_space_pauses_once_where_the_play_button_has_the_focus(tab: Tab):
-    tab.choose("sideways")
-    tab.until(lambda: tab.has_text("Simulated: sideways"))
+    tab.open("sideways")
     tab.row("Speed").locator("input").first.click()
     tab.page.get_by_role("option", name="0.1x").click()
     tab.page.get_by_role("button", name="Play", exact=True).click()
@@ -75,8 +74,7 @@ def test_a_click_in_the_timeline_goes_there(tab: Tab):
 
 
 def test_keys_play_after_a_recording_was_chosen_and_a_number_was_entered(tab: Tab):
-    tab.choose("sideways")
-    tab.until(lambda: tab.has_text("Simulated: sideways"))
+    tab.open("sideways")
     frame = tab.value("Frame")
     press(tab, "l")
     tab.until(lambda: tab.value("Frame") == frame + 1)
@@ -87,3 +85,45 @@ def test_keys_play_after_a_recording_was_chosen_and_a_number_was_entered(tab: Ta
     press(tab, "l")
     tab.until(lambda: tab.value("Frame") == frame + 2)
     assert tab.value("n") == 7
+
+
+def test_clicks_that_follow_each_other_at_once_all_count(tab: Tab):
+    tab.set_slider("Frame", "Home")
+    tab.until(lambda: tab.has_text("Frame 0 of"))
+    forward = tab.page.get_by_role("button", name="+1", exact=True)
+    forward.evaluate("button => { for (let i = 0; i < 5; i++) button.click(); }")
+    tab.until(lambda: tab.has_text("Frame 5 of") and tab.value("Frame") == 5)
+
+
+_LATE = """([uuid, value]) => {
+  const {messageQueue, drainMessageQueue} = window.__viserMutable;
+  messageQueue.push({type: "GuiUpdateMessage", uuid, updates: {value}});
+  drainMessageQueue();
+}"""
+
+
+def test_a_frame_that_is_entered_while_another_is_on_its_way_is_shown(tab: Tab):
+    press(tab, "Home")
+    tab.until(lambda: tab.has_text("Frame 0 of") and tab.value("Frame") == 0)
+    uuid = tab.row("Frame").locator(".mantine-Slider-root").get_attribute("id")
+    number = tab.row("Frame").locator("input:not([type=hidden])")
+    number.fill("12")
+    tab.page.evaluate(_LATE, [uuid, 1])  # what the server had sent before it knew
+    tab.until(lambda: tab.has_text("Frame 12 of"))
+    tab.until(lambda: tab.value("Frame") == 12 and number.input_value() == "12")
+
+
+_PLACES = """button => {
+  window.places = new Set();
+  const look = () => {
+    window.places.add(Math.round(button.getBoundingClientRect().top));
+    requestAnimationFrame(look);
+  };
+  look();
+}"""
+
+
+def test_while_a_recording_opens_the_controls_stay_in_their_places(tab: Tab):
+    tab.page.get_by_role("button", name="Play", exact=True).evaluate(_PLACES)
+    tab.open("sideways")
+    assert tab.page.evaluate("window.places.size") == 1

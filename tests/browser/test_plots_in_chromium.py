@@ -17,7 +17,7 @@ _CURSOR = """() => parseFloat(getComputedStyle(document.querySelector('.u-over')
 def context(chromium: Browser) -> Iterator[BrowserContext]:
     """A window that is wide enough for the plots to be open."""
     context = chromium.new_context(viewport={"width": 1280, "height": 720}, accept_downloads=True)
-    context.set_default_timeout(60_000)
+    context.set_default_timeout(10_000)
     context.add_init_script(NO_DRAWING)
     yield context
     context.close()
@@ -33,8 +33,7 @@ def filled(tab: Tab) -> None:
 
 
 def test_the_whole_recording_is_plotted_and_a_change_of_parameters_plots_it_again(tab: Tab):
-    tab.choose("robot_moving")
-    tab.until(lambda: tab.has_text("Simulated: robot_moving"))
+    tab.open("robot_moving")
     filled(tab)
     shown = plots(tab.page)
     assert len(shown) == 5

@@ -80,7 +80,7 @@ def test_the_two_views_of_papers_are_one_file_that_says_what_it_shows(tab: Tab):
     tab.page.get_by_role("option", name="1280 x 720").click()
     tab.page.wait_for_timeout(200)
     size = props(tab, "source")["point_size"]
-    with tab.page.expect_download(timeout=120_000) as download:
+    with tab.page.expect_download() as download:
         tab.page.get_by_role("button", name="Save 3D and top view").click()
     assert download.value.suggested_filename.endswith("_3d_top.png")
     with Image.open(download.value.path()) as picture:

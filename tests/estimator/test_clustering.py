@@ -98,7 +98,7 @@ def test_just_as_many_points_as_hdbscan_needs(settings):
     rng = np.random.default_rng(0)
     source, target = rng.normal(size=(2, settings.get("min_samples", 20) // 2, 3))
     parameters = Parameters(allow_single_cluster=True, **settings)
-    clusters_of(window_of_pair(source, target, 1.0), parameters)
+    assert len(clusters_of(window_of_pair(source, target, 1.0), parameters)) == 1
 
 
 def test_the_clouds_are_left_as_they_were():

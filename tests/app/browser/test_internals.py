@@ -121,6 +121,24 @@ def test_the_browsers_storage_is_read_below_a_prefix():
     in_page(f"`{prefix}`", why="links and reloads find nothing, and pictures have no size")
 
 
+def test_the_value_of_a_control_is_sent_again(client):
+    control = client.gui.add_number("k", 1.0)
+    client.take_sent()
+    internals.send_value(control)
+    (message,) = client.take_sent()
+    assert message == viser._messages.GuiUpdateMessage(control._impl.uuid, {"value": 1.0})
+
+
+def test_changes_of_controls_wait_where_they_are_kept_from_waiting():
+    names = ("sendMessage", "GuiUpdateMessage", "50")
+    assert all(name in internals.SEND_AT_ONCE for name in names)
+    in_page(
+        r"sendMessage\(\w+\),\w+=!1,\w+=!1,\w+=setTimeout\(",
+        r"\w+\(50\)\.send\b",
+        why="of several quick changes the last alone is sent (SEND_AT_ONCE)",
+    )
+
+
 def test_the_title_of_the_page_can_be_replaced():
     assert page().count(internals.PAGE_TITLE) == 1, (
         f"viser's page has another title: offline pages keep it (PAGE_TITLE of {INTERNALS})"

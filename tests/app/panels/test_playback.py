@@ -53,6 +53,14 @@ def test_jumps_to_where_something_begins_to_move(session, client):
     assert client.removed == ["Nothing begins to move before this frame."]
 
 
+def test_two_jumps_in_a_row_are_two(session, client):
+    client.change("Frame", 0)
+    until(at(client, 0))
+    client.trigger("Next motion")
+    client.trigger("Next motion")
+    until(at(client, 30))
+
+
 def test_commands_go_to_the_ends_and_step(session, client):
     client.trigger("First frame")
     until(at(client, 0))

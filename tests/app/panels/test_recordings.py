@@ -3,7 +3,7 @@ from dataclasses import replace
 from app.panels.recordings import RecordingsPanel, describe
 from recordings import Provenance
 from tests.app.fake_recordings import fake_opened, fake_recording
-from tests.app.fake_session import context, status
+from tests.app.fake_session import context, snapshot, status
 
 
 def test_a_measured_recording_is_described_by_its_size():
@@ -25,11 +25,14 @@ def test_what_is_being_opened_is_said_and_what_stays_open_after_a_bad_one(client
     assert "Opening …" in client.text()
     panel.announce(status(opening="a<b"))
     assert "Opening a&lt;b …" in client.text()
-    panel.announce(status(opened=fake_opened()))
+    opened = fake_opened()
+    panel.announce(status(opened=opened))
+    assert f"Opening {opened.entry.label} …" in client.text()  # until its first frame is drawn
+    panel.show(snapshot(opened=opened))
     assert "Opening" not in client.text()
-    panel.announce(status(opening="bad", opened=fake_opened()))
+    panel.announce(status(opening="bad", opened=opened))
     assert "Opening bad …" in client.text()
-    panel.announce(status(opened=fake_opened()))
+    panel.announce(status(opened=opened))
     assert "1 sensor, 40 frames" in client.text()
     panel.announce(status(opening="bad"))
     panel.announce(status())

@@ -4,7 +4,17 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.session.commands import ChangeParameters, Move, TogglePlay, seek, step
+from app.panels.compare import SwitchSide
+from app.panels.playback_commands import JumpToMotion, ToggleLoop
+from app.panels.view import CameraMoved
+from app.session.commands import (
+    ChangeParameters,
+    Move,
+    ResetParameters,
+    TogglePlay,
+    seek,
+    step,
+)
 from app.session.queue import CommandQueue
 
 
@@ -16,20 +26,43 @@ def test_the_latest_command_of_a_kind_wins():
     assert queue.take(timeout=0) == []
 
 
-def test_kinds_do_not_push_each_other_out_and_come_in_the_order_of_their_last_post():
+def test_commands_of_different_kinds_keep_their_order():
+    commands = [
+        ChangeParameters({"delta": 0.5}),
+        SwitchSide(),  # to the other parameters, which the next change is meant for
+        ChangeParameters({"delta": 0.1}),
+        ResetParameters(frozenset(["gamma", "delta"])),
+        ChangeParameters({"delta": 0.2}),
+        ResetParameters(frozenset(["gamma"])),
+    ]
     queue = CommandQueue()
-    queue.post(seek(1))
-    queue.post(TogglePlay())
-    queue.post(seek(2))
-    assert queue.take() == [TogglePlay(), seek(2)]
+    for command in commands:
+        queue.post(command)
+    assert queue.take() == commands
 
 
 def test_relative_commands_add_up():
     queue = CommandQueue()
     for _ in range(3):
         queue.post(step(-1))
+    for _ in range(3):
         queue.post(TogglePlay())
     assert queue.take() == [step(-3), TogglePlay(3)]
+
+
+def test_what_comes_from_the_background_is_merged_and_keeps_nothing_apart():
+    queue = CommandQueue()
+    for frame in range(100):
+        queue.post(seek(frame))
+        queue.post(CameraMoved())
+    assert queue.take() == [seek(99), CameraMoved()]
+
+
+def test_jumps_and_switches_count_as_often_as_they_are_asked_for():
+    queue = CommandQueue()
+    for command in (JumpToMotion((1,)), JumpToMotion((1,)), ToggleLoop(), ToggleLoop()):
+        queue.post(command)
+    assert queue.take() == [JumpToMotion((1, 1)), ToggleLoop(2)]
 
 
 @pytest.mark.parametrize(
