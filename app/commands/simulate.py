@@ -7,6 +7,7 @@ from typing import Any
 
 from app.commands.flags.simulation_flags import MAX_SPEED, check_simulation
 from app.errors import InputError
+from app.terminal.printable import printable
 from recordings import RecordingError, open_recording
 from recordings.simulation import (
     IMPERFECTIONS,
@@ -146,7 +147,8 @@ def run(options: argparse.Namespace) -> int:
             robot=robot,
             rig=rig,
         )
-        print(f"{path}: {count} frames, {path.stat().st_size / 1e6:.1f} MB", flush=True)
+        said = f"{path}: {count} frames, {path.stat().st_size / 1e6:.1f} MB"
+        print(printable(said), flush=True)
     return 0
 
 
