@@ -1,4 +1,4 @@
-"""Queue of a session's commands: callbacks post, one thread takes."""
+"""Queue of a session's commands, from callbacks to the session's thread."""
 
 import threading
 
@@ -8,7 +8,7 @@ from app.session.command import Command
 class CommandQueue:
     """Thread-safe queue of pending commands, at most one of each kind.
 
-    However many commands are posted, those of one kind are merged, so that nothing piles up.
+    Commands of one kind are merged, so that the queue stays short however many are posted.
     """
 
     def __init__(self) -> None:
@@ -33,10 +33,10 @@ class CommandQueue:
         """Take all commands, in the order of their last post.
 
         Args:
-            timeout: seconds to wait for one at most; None waits as long as it takes.
+            timeout: maximum wait in seconds, None for no limit.
 
         Returns:
-            The commands, none after the timeout, or None where the queue is closed.
+            The commands, empty after the timeout, or None once the queue is closed.
         """
         with self._changed:
             self._changed.wait_for(lambda: self._pending or self._closed, timeout)
@@ -47,7 +47,7 @@ class CommandQueue:
             return commands
 
     def close(self) -> None:
-        """End every wait, now and later."""
+        """Close the queue, and end all waits."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()
