@@ -1,4 +1,4 @@
-"""List of recordings, and a description of the one that is open."""
+"""List of recordings, and a description of the open one."""
 
 from html import escape
 
@@ -12,7 +12,7 @@ from app.session.snapshot import Snapshot, Status
 
 
 class RecordingsPanel(Panel):
-    """Choose a recording."""
+    """List to open a recording from."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
@@ -28,20 +28,20 @@ class RecordingsPanel(Panel):
                 post(OpenRecording(self._list.value))
 
     def announce(self, status: Status) -> None:
-        """Say what is being opened, which may take a while, or what is open."""
+        """Show which recording is being opened or is open."""
         if status.opening is not None:
-            said = [f"Opening {status.opening} …"]
+            texts = [f"Opening {status.opening} …"]
         else:
-            said = describe(status.opened) if status.opened else ["No recording is open."]
-        self._about.content = "".join(_line(escape(text)) for text in said)
+            texts = describe(status.opened) if status.opened else ["No recording is open."]
+        self._about.content = "".join(_line(escape(text)) for text in texts)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Choose what is open, also after a recording that could not be opened."""
+        """Select the open recording, also after another failed to open."""
         show_value(self._list, snapshot.opened.entry.label)
 
 
 def describe(opened: Opened) -> list[str]:
-    """Size and origin of a recording, in a few short lines."""
+    """Describe size and origin of a recording in short lines."""
     recording = opened.recording
     lines: list[str] = []
     provenance = recording.provenance
