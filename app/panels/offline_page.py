@@ -94,5 +94,5 @@ def _make(
     finally:
         library.release(opened.entry)
     name, content = f"{safe(opened.recording.name)}.html", page.encode()
-    said = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
-    return Download(name, content), Notice(_TITLE, said, "green", seconds=10.0)
+    sentence = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
+    return Download(name, content), Notice(_TITLE, sentence, "green", seconds=10.0)

@@ -68,9 +68,9 @@ class TakeScreenshot(LatestWins):
         ]
         compared = tuning.comparison
         sides = compared.drawn(tuning.parameters) if compared else {}
-        said = caption(recording, tuning.parameters, workbench.frame, sides)
+        text = caption(recording, tuning.parameters, workbench.frame, sides)
         name = file_name(recording.name, workbench.frame, self.views)
-        workbench.outbox.append(Download(name, png(side_by_side(pictures), said)))
+        workbench.outbox.append(Download(name, png(side_by_side(pictures), text)))
 
     def _take(self, workbench: Workbench) -> tuple[list[NDArray[np.uint8]], Legend]:
         """Render the pixels (H, W, 4) of each view, and return their legend, too."""

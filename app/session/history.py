@@ -40,11 +40,11 @@ class ParameterHistory:
         self._last = _NOTHING if now is None else (names, now)
 
     def undo(self, parameters: Parameters) -> Parameters | None:
-        """The parameters before the last change, None where there is none."""
+        """The parameters before the last change, None without one."""
         return self._go(parameters, self._undo, self._redo)
 
     def redo(self, parameters: Parameters) -> Parameters | None:
-        """The parameters after the change that was undone last, None where there is none."""
+        """The parameters after the change undone last, None without one."""
         return self._go(parameters, self._redo, self._undo)
 
     def _go(
