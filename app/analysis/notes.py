@@ -5,12 +5,12 @@ from recordings import Recording
 
 def notes(recording: Recording) -> list[str]:
     """Warnings as sentences; some arise only once frames are read."""
-    said = list(recording.warnings)
+    sentences = list(recording.warnings)
     if recording.duplicates:
-        said.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
+        sentences.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
     if unplaced := int(recording.unplaced.sum()):
-        said.append(
+        sentences.append(
             f"{unplaced} of {len(recording)} frames are empty: they lie outside the "
             f"poses that are known."
         )
-    return said
+    return sentences

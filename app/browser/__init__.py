@@ -1,1 +1,1 @@
-"""Everything that depends on private parts of viser, or of the page that it serves."""
+"""Code that depends on private parts of viser or of the page it serves."""

@@ -1,4 +1,4 @@
-"""Values that a session shows in controls which a person may be using at the same moment."""
+"""Safe updates of controls that a user may be changing at the same moment."""
 
 import asyncio
 import threading
@@ -13,13 +13,13 @@ _QUIET = 0.3  # seconds after a person's last change, so that typing is not dist
 
 
 def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
-    """Let a control show a value.
+    """Set a control's value in viser's event loop, without racing the user.
 
-    viser puts what a person chose into the control and then calls back, in the thread of its event
-    loop. A value that came in between from another thread would be read instead of the person's.
+    viser assigns a user's value to the control and then calls back, both in its event loop. A value
+    assigned in between by another thread would be read in place of the user's.
 
     Args:
-        control: of a session's page.
+        control: to set.
         value: of the control's type.
     """
     if control.value == value:

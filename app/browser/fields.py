@@ -1,9 +1,9 @@
-"""Values that are written into the page's fields where no person types them.
+"""Clicks on HTML elements that set fields of the page.
 
-HTML of viser cannot be clicked, and its plots neither. An element that carries the attributes of
-`sets` or `sets_along` hands a click on to a number field, a slider or a dropdown of the page, as
-if a person had entered it there. A number that is left empty comes back, and a field gives up the
-focus once a person is done with it.
+viser reports no clicks on HTML or plots. A click on an element with the attributes of `sets` or
+`sets_along` is therefore entered into a number field, a slider or a dropdown of the page, as if
+typed there. The script also restores numbers that are left empty, and removes the focus from
+fields after use.
 """
 
 import viser
@@ -24,7 +24,7 @@ if (!window.tofscopeSet) {
     input.dispatchEvent(new Event('input', {bubbles: true}));
     input.dispatchEvent(new Event('focusout', {bubbles: true}));
   };
-  const choose = (field, value, tries) => {  // its options are there a moment after it is opened
+  const choose = (field, value, tries) => {  // options appear shortly after it is opened
     const list = document.getElementById(field.getAttribute('aria-controls'));
     const options = list ? [...list.querySelectorAll('%(option)s')] : [];
     const wanted = options.find(option => option.textContent === value);
@@ -62,7 +62,7 @@ if (!window.tofscopeSet) {
     const along = () => Math.round(window.tofscopeAlong(event, element, 0, Number(end))).toString();
     window.tofscopeSet(sets, value ?? along());
   });
-  // A field that keeps the focus keeps the keys, which people mean for playback.
+  // A focused field would swallow the keys of playback.
   const leave = () => setTimeout(() => document.activeElement?.blur(), 0);
   document.addEventListener('click', event => {
     if (event.target.closest('%(option)s')) leave();
@@ -88,17 +88,17 @@ _NAMES = {
 
 
 def set_up_fields(client: viser.ClientHandle) -> None:
-    """Let elements of the page set its fields from now on."""
+    """Install the script that lets clicks set fields."""
     run_script(client, _SCRIPT % _NAMES)
 
 
 def unfold(client: viser.ClientHandle, folder: str) -> None:
-    """Open a folder of the page by its name and bring it into view, where it is closed."""
+    """Open a closed folder of the page by its name, and scroll to it."""
     run_script(client, f"window.tofscopeUnfold({folder!r})")
 
 
 def sets(control: viser.GuiInputHandle, value: str) -> str:
-    """Attributes of an element on which a click sets a control to a value.
+    """HTML attributes of an element whose click sets a control to a value.
 
     Args:
         control: a dropdown that has this option, or a number field.
@@ -108,5 +108,5 @@ def sets(control: viser.GuiInputHandle, value: str) -> str:
 
 
 def sets_along(control: viser.GuiInputHandle, end: int) -> str:
-    """Attributes of an element along which a click sets a slider, whole numbers from 0 to `end`."""
+    """HTML attributes of an element whose click position sets a slider, from 0 to `end`."""
     return f'data-sets="{element_id(control)}" data-end="{end}"'

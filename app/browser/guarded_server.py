@@ -1,4 +1,4 @@
-"""viser's server, quiet on the terminal, which refuses what other web pages send."""
+"""viser server that refuses requests of foreign web pages and prints nothing."""
 
 import contextlib
 import io
@@ -18,11 +18,11 @@ _starting = threading.Lock()
 
 
 class GuardedServer(viser.ViserServer):
-    """Server that answers its own pages and programs, and no foreign page.
+    """Server that answers programs and its own pages, but no page of another origin.
 
     Args:
-        host: address to listen at.
-        port: port to listen at, 0 for any that is free.
+        host: address to listen on.
+        port: port to listen on, 0 for any free one.
         label: title of the panel.
     """
 
@@ -34,7 +34,7 @@ class GuardedServer(viser.ViserServer):
 
     @property
     def camera(self) -> viser.InitialCameraConfig:
-        """Camera that clients begin with; with it, a scene can be drawn on the server."""
+        """Initial camera of clients, which lets a scene be drawn on the server."""
         return self.initial_camera
 
     def stop(self) -> None:
@@ -43,19 +43,19 @@ class GuardedServer(viser.ViserServer):
             super().stop()
 
     def request_share_url(self, verbose: bool = True) -> None:
-        """Refuse: any page could ask for it, and it would make this port public."""
+        """Do nothing: any page could call it, and it would make this port public."""
 
 
 def is_foreign(origin: str, addressed: str | None, host: str) -> bool:
-    """Whether a page of this origin is none of this server's.
+    """Whether an origin is foreign, that is, not a page of this server.
 
-    A page is this server's where it was loaded from the address at which it connects now. Names
-    that others can point at this machine, to make its pages look like ours, are no such address.
+    A page of this server was loaded from the address it now connects to. That address must be an IP
+    address or a name of this machine: other names may have been pointed at it (DNS rebinding).
 
     Args:
         origin: of the page, such as http://127.0.0.1:8080.
         addressed: the request's Host header, such as 127.0.0.1:8080.
-        host: address that the server listens at.
+        host: address that the server listens on.
     """
     parts = urlsplit(origin)
     if addressed is None or parts.netloc.lower() != addressed.lower():
@@ -78,7 +78,7 @@ def _is_address(name: str) -> bool:
 
 
 def _refusal(request: Request, host: str) -> str | None:
-    """Why a request is refused by the server at an address, None where it is answered."""
+    """Reason to refuse a request to the server at `host`, None to answer it."""
     headers = request.headers
     hosts = headers.get_all("Host")
     addressed = hosts[0] if len(hosts) == 1 else None
@@ -88,5 +88,5 @@ def _refusal(request: Request, host: str) -> str | None:
 
 
 def _quiet() -> contextlib.AbstractContextManager[Any]:
-    # viser greets and takes its leave on the terminal; what people need, the commands tell them.
+    # viser prints messages at start and stop; the commands print what users need.
     return contextlib.redirect_stdout(io.StringIO())

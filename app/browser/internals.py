@@ -1,7 +1,6 @@
 """Private parts of viser, of its page and of websockets that the app relies on, and why.
 
-All of them are here, and `tests/app/browser/test_internals.py` says of each when an upgrade has
-changed it.
+`tests/app/browser/test_internals.py` fails for each that an upgrade has changed.
 """
 
 import contextlib
@@ -17,34 +16,34 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
 SCENE_CANVAS = "canvas[data-engine]"
-"""Canvas of the scene, by the attribute that three.js leaves: viser does not tell its size."""
+"""Canvas of the scene, by three.js's attribute; used for its size, which viser does not report."""
 
 FOLDER_ARROW = "svg.tabler-icon-chevron-down"
-"""Arrow of a folder that is closed: viser cannot open a folder later."""
+"""Arrow of a closed folder; clicked to open it, since viser cannot open a folder later."""
 
 NUMBER_INPUT = "input.mantine-NumberInput-input"
-"""Input of a number field: a number that is left empty has to come back."""
+"""Input of a number field; used to restore a number that is left empty."""
 
 PLOT_AREA = ".u-over"
-"""Area of a plot that the mouse meets: viser tells of no click in it."""
+"""Mouse area of a plot; used for clicks, which viser does not report."""
 
 PLOT_CANVAS = ".uplot canvas"
-"""Canvas of a plot, to draw it pale."""
+"""Canvas of a plot; used to draw it pale."""
 
 DROPDOWN = "[aria-haspopup=listbox]"
-"""Input of a dropdown; the list that it opens is named by its `aria-controls`."""
+"""Input of a dropdown; its `aria-controls` names the list that it opens."""
 
 DROPDOWN_OPTION = "[role=option]"
 """Option of a dropdown, in the list that it opens."""
 
 SLIDER_OR_TAB = "[role=slider], [role=tab]"
-"""Controls that arrow keys move: viser gives those keys to playback and the camera as well."""
+"""Controls moved by arrow keys, which viser also gives to playback and the camera."""
 
 STORAGE_PREFIX = "viser-user:"
-"""Prefix that viser puts before the keys of a browser's storage that Python reads and removes."""
+"""Prefix of the browser storage keys that viser lets Python read and remove."""
 
 PAGE_TITLE = "<title>Viser</title>"
-"""Title in viser's page, in whose place an offline page has its own."""
+"""Title in viser's page, which an offline page replaces."""
 
 NO_FLASH = """<script>
 const waiting = setInterval(() => {
@@ -58,9 +57,8 @@ const waiting = setInterval(() => {
   };
 }, 20);
 </script>"""
-"""Script of an offline page: where viser's player begins again or is set back, it lights the scene
-in its own way until the browser's next image. Messages that are taken at once leave no such image
-between."""
+"""Script of an offline page that prevents a flash: when viser's player restarts or seeks, it shows
+its default lights until the next image, unless queued messages are applied at once."""
 
 SEND_AT_ONCE = """
 if (!window.tofscopeSends) {
@@ -88,24 +86,24 @@ then sends the last of those made meanwhile, of whatever control: a click on a b
 that is typed get lost between others, the more the busier the page is."""
 
 CONNECTION_LOGGER = "websockets.server"
-"""Logger that calls a connection an error which ends before it asked for anything: browsers make
-such connections."""
+"""Logger that reports connections closed before any request as errors; browsers open such
+connections."""
 
 CLOSED_CONNECTION = r"Queued a .* on a closed connection"
-"""Warning of viser about a message to a client that has gone, which is no mistake of ours."""
+"""viser's warning about a message to a disconnected client, which is harmless."""
 
 _Answer = Callable[[ServerConnection, Request], Response | None]
 
 
 def element_id(control: viser.GuiInputHandle[Any]) -> str:
-    """Id of a control's element in the page, by which scripts of ours find it."""
+    """Id of a control's element in the page, for scripts."""
     return control._impl.uuid
 
 
 def call_in_event_loop(control: viser.GuiInputHandle[Any], action: Callable[[], None]) -> None:
-    """Call something in the event loop that calls back for a control, so that neither interrupts.
+    """Run an action in the event loop that runs a control's callbacks.
 
-    viser puts what a person chose into the control there, and calls back at once.
+    viser assigns a user's value and calls back there without interruption.
     """
     control._impl.gui_api._event_loop.call_soon_threadsafe(action)
 
@@ -117,16 +115,16 @@ def send_value(control: viser.GuiInputHandle[Any]) -> None:
 
 
 def run_script(client: viser.ClientHandle, script: str) -> None:
-    """Run a script in the page, after whatever was sent before; viser offers no way to."""
+    """Run a script in the page, after all messages sent before."""
     client.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
 
 
 @contextlib.contextmanager
 def guarding_requests(refused: Callable[[Request], str | None]) -> Iterator[None]:
-    """Give the server that viser starts meanwhile a guard, for which viser has no argument.
+    """Context in which a server started by viser gets a request filter, which viser cannot take.
 
     Args:
-        refused: says why a request is refused, None where it is answered.
+        refused: returns the reason to refuse a request, None to answer it.
     """
     serve = websocket_server.serve
 

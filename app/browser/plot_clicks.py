@@ -1,7 +1,7 @@
-"""Line at the current time in plots of viser, and clicks in them that go to a time.
+"""Line at the current time in viser's plots, and clicks in plots that seek.
 
-The line is a style sheet, so that a new frame costs a hundred bytes and no plot is drawn again.
-A click is written into a number field, by what `app.browser.fields` has set up.
+The line is a style sheet, so that a new frame sends about a hundred bytes and redraws no plot.
+A click is entered into a number field by the script of `app.browser.fields`.
 """
 
 import viser
@@ -28,10 +28,10 @@ if (!window.tofscopePlotsListen) {
 
 
 def seek_by_clicks(client: viser.ClientHandle, field: str, start: float, end: float) -> None:
-    """Make clicks in the plots set a number field from now on.
+    """Let clicks in the plots set a number field.
 
     Args:
-        client: whose page.
+        client: owner of the page.
         field: the field's id in the page.
         start: value at the left edge of the plots.
         end: value at their right edge.
@@ -41,11 +41,11 @@ def seek_by_clicks(client: viser.ClientHandle, field: str, start: float, end: fl
 
 
 def cursor(share: float, *, pale: bool) -> str:
-    """HTML that draws a line in the plots after it.
+    """HTML that draws a line in the plots that follow it.
 
     Args:
-        share: of the plots' width, from the left, at which the line is.
-        pale: whether the plots are drawn pale, since what they show does not hold any more.
+        share: position of the line, 0 at the plots' left edge, 1 at the right.
+        pale: whether the plots are drawn pale, as outdated.
     """
     faded = f"{_PALE} {{opacity: 0.25}}" if pale else ""
     return (

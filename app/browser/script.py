@@ -1,4 +1,4 @@
-"""Scripts for the page, for what viser offers no way to ask of it."""
+"""Scripts for the page: keys, storage, clipboard, and the scene's size."""
 
 from uuid import uuid4
 
@@ -12,9 +12,9 @@ from app.browser.internals import (
     run_script,
 )
 
-# viser gives its hotkeys every key that is not typed into a text field, and arrow keys to the
-# camera as well. Events bubble from the element with the focus over `body`, behind which nothing
-# is a control any more, to `html`, where hotkeys are heard, and `document`, where the camera is.
+# viser's hotkeys take every key not typed into a text field, and its camera takes arrow keys too.
+# Events bubble from the focused element to `body`, which contains all controls, then to `html`,
+# where hotkeys listen, and `document`, where the camera listens.
 _KEYS = f"""
 if (!window.tofscopeKeys) {{
   window.tofscopeKeys = true;
@@ -29,7 +29,7 @@ if (!window.tofscopeKeys) {{
 }}
 """
 
-# Panels may be docked beside the scene; a size that follows from theirs is told by the scene's.
+# Docked panels shift the scene; its resize events report that.
 _EDGE = f"""
 if (!window.tofscopeEdge) {{
   const canvas = document.querySelector("{SCENE_CANVAS}");
@@ -47,8 +47,8 @@ const canvas = document.querySelector("{SCENE_CANVAS}");
 localStorage.setItem("{STORAGE_PREFIX}%s", `${{canvas.clientWidth}} ${{canvas.clientHeight}}`);
 """
 
-# A server never learns the address of viser's page; what its storage holds it may ask for. The
-# address is cleaned, so that a reload comes back to what was shown last and not to the link.
+# viser does not report the page's address, but can read its storage. The link is removed from the
+# address, so that a reload restores the last state and not the link's.
 _LINK = "link"
 _LINK_TO_STORAGE = f"""
 const query = new URLSearchParams(location.search);
@@ -60,7 +60,7 @@ if (link !== null) {{
 }}
 """
 
-# A browser's storage is shared by its tabs, and each of them is a session of its own.
+# Tabs share the local storage, but each is a session of its own.
 _TOKEN = "session"
 _TOKEN_TO_STORAGE = f"""
 localStorage.setItem(
@@ -70,7 +70,7 @@ _KEEP_TOKEN = f"""
 sessionStorage.setItem("tofscope-{_TOKEN}", "%s");
 """
 
-# Browsers open the clipboard to pages of this machine and of https alone.
+# Browsers allow the clipboard only to pages of this machine or over https.
 _COPY_LINK = """
 const link = `${location.origin}${location.pathname}?%s=%s`;
 const show = () => window.prompt("Copy this link:", link);
@@ -84,16 +84,16 @@ def set_up_sending(client: viser.ClientHandle) -> None:
 
 
 def set_up_keys(client: viser.ClientHandle) -> None:
-    """Leave keys to a slider that has the focus, and left and right to playback."""
+    """Reserve arrow keys for a focused slider, and left and right for playback."""
     run_script(client, _KEYS)
 
 
 def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
-    """The token of the link that the page was opened with, once; None where there is none.
+    """Take the token of the link that the page was opened with, None without one.
 
     Raises:
-        RuntimeError: the client has gone, or its browser stores nothing.
-        TimeoutError: it has not answered within `timeout` seconds.
+        RuntimeError: the client has disconnected, or its browser has no storage.
+        TimeoutError: no answer within `timeout` seconds.
     """
     run_script(client, _LINK_TO_STORAGE)
     token = client.local_storage.get_item(_LINK, timeout=timeout)
@@ -103,42 +103,42 @@ def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
 
 
 def take_token(client: viser.ClientHandle, timeout: float) -> str | None:
-    """Token that `keep_token` left in this tab, None where it left none.
+    """Read the token that `keep_token` stored in this tab, None without one.
 
     Raises:
-        RuntimeError: the client has gone, or its browser stores nothing.
-        TimeoutError: it has not answered within `timeout` seconds.
+        RuntimeError: the client has disconnected, or its browser has no storage.
+        TimeoutError: no answer within `timeout` seconds.
     """
     run_script(client, _TOKEN_TO_STORAGE)
     return client.local_storage.get_item(_TOKEN, timeout=timeout) or None
 
 
 def keep_token(client: viser.ClientHandle, token: str) -> None:
-    """Leave a token in this tab, for when the page is loaded again."""
+    """Store a token in this tab, for a reload of the page."""
     run_script(client, _KEEP_TOKEN % token)
 
 
 def copy_link(client: viser.ClientHandle, token: str) -> None:
-    """Put the page's address with this token into the clipboard, or show it."""
+    """Copy the page's address with this token to the clipboard, or show it for copying."""
     run_script(client, _COPY_LINK % (_LINK, token))
 
 
 def set_up_scene_edge(client: viser.ClientHandle) -> None:
-    """Tell style sheets where the scene begins, as `--scene-left`."""
+    """Provide the scene's left edge to style sheets as `--scene-left`."""
     run_script(client, _EDGE)
 
 
 def canvas_size(client: viser.ClientHandle) -> tuple[int, int]:
-    """Width and height of the scene in the page in CSS pixels, which viser does not tell.
+    """Width and height of the scene in the page in CSS pixels.
 
-    What it tells are a screen's pixels: more on a fine screen, fewer on a slow machine.
+    viser reports device pixels, whose number varies with the screen and with its frame rate.
     """
     key = f"canvas-{uuid4()}"  # tabs share their storage
     run_script(client, _SIZE_TO_STORAGE % key)
     try:
-        told = client.local_storage.get_item(key, timeout=5.0)
+        answer = client.local_storage.get_item(key, timeout=5.0)
         client.local_storage.remove_item(key)
-        width, height = (int(side) for side in (told or "").split())
+        width, height = (int(side) for side in (answer or "").split())
     except (RuntimeError, TimeoutError, ValueError):
         width, height = client.camera.image_width, client.camera.image_height
     return max(width, 1), max(height, 1)

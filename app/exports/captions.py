@@ -22,16 +22,16 @@ def caption(
         frame: k, None for a file with many.
         sides: {A or B: its parameters} where the flow of both is drawn.
     """
-    said = {"Recording": recording.name, "Data": origin(recording)}
+    entries = {"Recording": recording.name, "Data": origin(recording)}
     if frame is not None:
         seconds = float(recording.stamps[frame] - recording.stamps[0])
-        said["Frame"] = f"{frame} of {len(recording) - 1}, at {seconds:.3f} s"
-    said["Fixed frame"] = recording.fixed_frame
-    said["Method"] = parameters.method
-    said["Parameters"] = json.dumps(to_nested(parameters))
+        entries["Frame"] = f"{frame} of {len(recording) - 1}, at {seconds:.3f} s"
+    entries["Fixed frame"] = recording.fixed_frame
+    entries["Method"] = parameters.method
+    entries["Parameters"] = json.dumps(to_nested(parameters))
     for side, its_parameters in sides.items():
-        said[f"Parameters of {side}"] = json.dumps(to_nested(its_parameters))
-    return said
+        entries[f"Parameters of {side}"] = json.dumps(to_nested(its_parameters))
+    return entries
 
 
 def origin(recording: Recording) -> str:

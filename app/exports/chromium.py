@@ -35,8 +35,8 @@ def headless_page(address: str, width: int, height: int) -> Iterator[None]:
         try:
             browser = playwright.chromium.launch(executable_path=path, args=_FLAGS)
         except Error as error:
-            said = error.message.splitlines()[0]
-            raise InputError(f"Chromium at {path} does not start ({said}).") from error
+            reason = error.message.splitlines()[0]
+            raise InputError(f"Chromium at {path} does not start ({reason}).") from error
         try:
             page = browser.new_page(viewport={"width": width, "height": height})
             page.goto(address)

@@ -95,9 +95,9 @@ def offline_page(
     page = page.replace(PAGE_TITLE, f"<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")
     sides = comparison.drawn(parameters) if comparison else {}
-    said = dict(caption(recording, parameters, None, sides))
-    said["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
-    added = _LEGEND_STYLE + html(legend) + _about(title, said, dark=settings.dark) + NO_FLASH
+    texts = dict(caption(recording, parameters, None, sides))
+    texts["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
+    added = _LEGEND_STYLE + html(legend) + _about(title, texts, dark=settings.dark) + NO_FLASH
     return page[:end] + added + page[end:]
 
 
@@ -108,10 +108,10 @@ def _pauses(recording: Recording, frames: Sequence[int]) -> list[float]:
     return [*map(float, pauses), usual]
 
 
-def _about(title: str, said: Mapping[str, str], *, dark: bool) -> str:
+def _about(title: str, texts: Mapping[str, str], *, dark: bool) -> str:
     """HTML of a folded box over the scene with the caption {name: value}."""
     ink, paper = ("#ddd", "rgba(30, 30, 34, 0.88)") if dark else ("#222", "#ffffffe0")
-    rows = "".join(_row(name, value) for name, value in said.items())
+    rows = "".join(_row(name, value) for name, value in texts.items())
     box = (
         "position: fixed; top: 0.75rem; right: 0.75rem; z-index: 2; max-width: 30rem; "
         "padding: 0.5rem 0.75rem; border-radius: 0.4rem; "

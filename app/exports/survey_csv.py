@@ -40,10 +40,10 @@ def _heading(recording: Recording, survey: Survey) -> str:
     )
     origin = "simulated" if recording.simulated else "measured"
     name = " ".join(recording.path.name.split())  # a line break in it would end the comment
-    said = f"Tofscope; recording {name}; {origin}; {parameters}"
+    heading = f"Tofscope; recording {name}; {origin}; {parameters}"
     if not survey.complete:
-        said += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"
-    return said
+        heading += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"
+    return heading
 
 
 def _texts(values: np.ndarray, form: str) -> list[str]:

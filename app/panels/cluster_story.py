@@ -1,4 +1,4 @@
-"""Clusters in words and tables: all of them in short, one of them round by round."""
+"""HTML of a pair's clusters: a table of all, and the story of one, round by round."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -9,11 +9,11 @@ from app.scene.colours import css
 from app.scene.palettes import Palette
 from estimator import ClusterResult, IcpRound, Label, Parameters, StoryRow
 
-_SIX_ROWS = "calc(11.55em + 6px)"  # of the table of all clusters, below its head
+_SIX_ROWS = "calc(11.55em + 6px)"  # height of the cluster table's body
 
 
 def fills(palette: Palette) -> dict[Label, str]:
-    """{label: how a bar or a swatch of it is filled}, as its points are in the scene."""
+    """{label: SVG fill attribute}, in the colours of the scene."""
     return {
         Label.MOVING: f'fill="{css(palette.flow)}"',
         Label.STATIONARY: f'fill="{css(palette.stationary)}"',
@@ -27,13 +27,13 @@ def cluster_table(
     palette: Palette,
     attributes: Callable[[ClusterResult], str],
 ) -> str:
-    """All clusters, a row each, the picked one marked.
+    """Table of all clusters, the picked one marked.
 
     Args:
         clusters: of a pair.
-        picked: index of the picked one, None where none is.
+        picked: index of the picked one, None for none.
         palette: of the drawing.
-        attributes: of a cluster's row, which say what a click on it does.
+        attributes: HTML attributes of a cluster's row, for clicks.
     """
     has_rounds = any(cluster.rounds for cluster in clusters)
     head = ("", "Points", *(("Fitness", "Displ.") if has_rounds else ()), "Label")
@@ -58,10 +58,10 @@ def cluster_table(
 
 
 def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> str:
-    """Every round of a cluster, how far each was from the thresholds, and the outcome in words."""
+    """Story of a cluster: its ICP rounds with margins to the thresholds, and the outcome."""
     title = f"<b>Cluster {cluster.index}</b>: {len(cluster.source)} source and "
     title += f"{len(cluster.target)} target points"
-    # The inliers of the last round leave only where nothing was decided by it.
+    # The round that decides the label removes no inliers.
     removing = len(cluster.rounds) - (cluster.label != Label.UNASSIGNED)
     rows = [
         Row(_round_cells(number, turn, parameters, removes=number <= removing))
@@ -82,7 +82,7 @@ def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> s
 
 
 def swatch(label: Label, palette: Palette) -> str:
-    """A small square in the label's colour."""
+    """Small square in the label's colour."""
     return (
         '<svg width="8" height="8" style="margin-right: 0.4em">'
         f'<rect width="8" height="8" {fills(palette)[label]}/></svg>'
@@ -90,7 +90,7 @@ def swatch(label: Label, palette: Palette) -> str:
 
 
 def legend(palette: Palette) -> str:
-    """Meaning of the colours of the bars, and of the mark."""
+    """Legend of the histograms: colours of the bars, and the mark."""
     labels = "".join(
         f'<span style="margin-right: 1em">{swatch(label, palette)}{label.name.lower()}</span>'
         for label in (Label.MOVING, Label.STATIONARY, Label.UNASSIGNED)
@@ -107,7 +107,7 @@ def _last_round(cluster: ClusterResult) -> tuple[str, str]:
 
 
 def _own_story(cluster: ClusterResult) -> str:
-    """Table of what the method tells of a cluster by itself, "" where it tells nothing."""
+    """Table of the rows that the method itself reports on a cluster, "" without any."""
     if not cluster.story:
         return ""
     with_thresholds = any(row.threshold is not None for row in cluster.story)

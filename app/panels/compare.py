@@ -21,7 +21,7 @@ class CopyToB(LatestWins):
     """Make B a copy of A, and edit it."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Copy it."""
+        """Replace B by A, and edit B."""
         tuning = workbench.tuning
         before, parameters = tuning.comparison, tuning.parameters
         if before is None:
@@ -33,10 +33,10 @@ class CopyToB(LatestWins):
 
 @dataclass(frozen=True)
 class SwitchSide(Repeated):
-    """Edit B instead of A, or the other way round, this many times; B is made where it is not."""
+    """Switch the edited side, as often as posted; creates B if it is missing."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Edit the other one."""
+        """Edit the other side."""
         tuning = workbench.tuning
         before = tuning.comparison
         if before is None:
@@ -47,22 +47,22 @@ class SwitchSide(Repeated):
 
 @dataclass(frozen=True)
 class DrawBoth(LatestWins):
-    """Draw the flow of both, or of the edited one alone."""
+    """Draw the flow of both sides, or of the edited one alone."""
 
     both: bool
 
     def apply(self, workbench: Workbench) -> None:
-        """Draw so."""
+        """Set it, if there is a B."""
         if (before := workbench.tuning.comparison) is not None:
             workbench.tuning.comparison = replace(before, both=self.both)
 
 
 @dataclass(frozen=True)
 class ToggleBoth(Repeated):
-    """Draw the flow of both where one is drawn, and the other way round, this many times."""
+    """Toggle between drawing the flow of both sides and of one, this many times."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Draw so, or say that there is no B."""
+        """Toggle it; InputError without B."""
         before = workbench.tuning.comparison
         if before is None:
             raise InputError("There is no B to draw; copy A to B first.")
@@ -71,10 +71,10 @@ class ToggleBoth(Repeated):
 
 @dataclass(frozen=True)
 class RemoveB(LatestWins):
-    """Go on with A alone."""
+    """Remove B, and edit A."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Forget B."""
+        """End the comparison."""
         tuning = workbench.tuning
         if (before := tuning.comparison) is not None:
             of_a, _ = before.in_order(tuning.parameters, before.other)
@@ -82,7 +82,7 @@ class RemoveB(LatestWins):
 
 
 class ComparePanel(Panel):
-    """Make B, switch between A and B, and read how they differ on the pair that is shown."""
+    """Controls of the comparison, and a table of the differences on the current pair."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
@@ -112,7 +112,7 @@ class ComparePanel(Panel):
         copying = gui.add_command("Compare: copy A to B", icon=viser.Icon.COPY)
         removing = gui.add_command("Compare: remove B", icon=viser.Icon.X)
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @copy.on_click
         async def _(_: viser.GuiEvent) -> None:
             post(CopyToB())
@@ -147,7 +147,7 @@ class ComparePanel(Panel):
             post(RemoveB())
 
     def show(self, snapshot: Snapshot) -> None:
-        """Say what is edited, and how A and B differ."""
+        """Show which side is edited, and how A and B differ."""
         comparison, before = snapshot.comparison, self._last
         self._last = comparison
         self._switch.visible = self._both.visible = self._remove.visible = comparison is not None
@@ -159,7 +159,7 @@ class ComparePanel(Panel):
             return
         edited, other = comparison.edited, A if comparison.edited == B else B
         if before is None or before.both != comparison.both:
-            # Otherwise it may have been switched a moment ago.
+            # Not set without a change: the user may just have switched it.
             show_value(self._both, comparison.both)
         self._switch.label = f"Switch to {other}"
         colour = css(snapshot.settings.palette.second)

@@ -1,4 +1,4 @@
-"""Delivery of messages and of the state of background tasks to the browser."""
+"""Delivery of messages and of background tasks' progress to the browser."""
 
 from collections.abc import Sequence
 
@@ -10,10 +10,10 @@ from app.session.tasks import TaskState
 
 
 class Delivery:
-    """Notifications, downloads and links of all panels, in one place.
+    """Sends notifications, downloads and links to the browser.
 
     Args:
-        client: whose browser gets them.
+        client: that receives them.
     """
 
     def __init__(self, client: viser.ClientHandle) -> None:
@@ -22,7 +22,7 @@ class Delivery:
         self._tasks: dict[str, viser.NotificationHandle] = {}
 
     def deliver(self, messages: Sequence[Message]) -> None:
-        """Hand messages to the browser, in their order."""
+        """Send messages to the browser, in order."""
         for message in messages:
             match message:
                 case Notice():
@@ -33,7 +33,7 @@ class Delivery:
                     copy_link(self._client, token)
 
     def show_tasks(self, tasks: Sequence[TaskState]) -> None:
-        """Show that these tasks are running, and no others."""
+        """Show these tasks as running, and close notifications of ended ones."""
         for title in self._tasks.keys() - {task.title for task in tasks}:
             self._tasks.pop(title).remove()
         for task in tasks:

@@ -1,4 +1,4 @@
-"""Differences between two estimates of one frame, in numbers."""
+"""Differences between two estimates of one frame, as HTML tables."""
 
 import math
 from collections.abc import Callable
@@ -26,26 +26,26 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
     "Clusters": (".0f", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
     **{metric_label(name): (METRIC_INFO[name].form, _error(name)) for name in PLOTTED},
 }
-"""{quantity: its format, and its value for a pair}; NaN where nothing defines it."""
+"""{quantity: format, function from a pair to its value}; NaN where undefined."""
 
 
 def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
-    """Numbers estimated with A, with B, and B less A; a dash where one is not known."""
+    """Table of numbers with A, with B, and B - A; a dash where unknown."""
     rows = [Row((name, *_cells(name, of_a, of_b))) for name in _ROWS]
     return table(("", "A", "B", "B − A"), rows)
 
 
 def changes(of_a: Parameters, of_b: Parameters) -> str:
-    """The parameters in which A and B differ, by name."""
+    """List of the parameters in which A and B differ."""
     a, b = values_of(of_a), values_of(of_b)
-    said = [
+    differing = [
         f"{label}: {_written(a[name])} → {_written(b[name])}"
         for name, label in _labels().items()
         if a[name] != b[name]
     ]
-    if not said:
+    if not differing:
         return "<div>B has the same parameters as A.</div>"
-    return f"<div>From A to B: {escape(', '.join(said))}</div>"
+    return f"<div>From A to B: {escape(', '.join(differing))}</div>"
 
 
 def _labels() -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Explanation of a pair: every cluster's outcome, the picked one's story, the thresholds."""
+"""Explanation of a pair: all clusters' outcomes, the picked one's story, histograms."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -40,25 +40,25 @@ class PickCluster(LatestWins):
 
 @dataclass(frozen=True)
 class PickAt(LatestWins):
-    """Pick the cluster that is clicked on; a click beside all of them picks none."""
+    """Pick the cluster under a click in the scene; a click beside all of them picks none."""
 
     origin: Vector
     direction: Vector
 
     def apply(self, workbench: Workbench) -> None:
-        """Pick it."""
+        """Pick the cluster under the ray."""
         workbench.pick_at(self.origin, self.direction)
 
 
 class ExplainPanel(Panel):
-    """Pick a cluster here or in the scene, and read what was decided about it."""
+    """List of clusters to pick from, and the picked cluster's story."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
         self._client = context.client
         self._picked_in_scene = 0
         self._pair: Pair | None = None
-        self._told: tuple[int | None, Palette] | None = None
+        self._shown: tuple[int | None, Palette] | None = None
         with gui.add_folder(_FOLDER, expand_by_default=False):
             self._list = gui.add_dropdown(
                 "Cluster",
@@ -76,13 +76,13 @@ class ExplainPanel(Panel):
                 chosen = self._list.value
                 post(PickCluster(None if chosen == _NONE else int(chosen.split()[0])))
 
-        # Dragging turns the camera as ever: viser tells a click from a drag.
+        # viser does not report drags, which turn the camera, as clicks.
         @context.client.scene.on_click()
         def _(event: viser.SceneClickEvent) -> None:
             post(PickAt(event.ray_origin, event.ray_direction))
 
     def show(self, snapshot: Snapshot) -> None:
-        """Tell the clusters of the pair, and the picked one's story."""
+        """Show the clusters of the pair, and the picked one's story."""
         if snapshot.picked_in_scene != self._picked_in_scene:
             self._picked_in_scene = snapshot.picked_in_scene
             unfold(self._client, _FOLDER)
@@ -93,9 +93,9 @@ class ExplainPanel(Panel):
             self._story.content = framed("There is no estimate of this frame to explain.")
             self._table.content = self._fitness.content = self._displacement.content = ""
             return
-        picked, palette = told = (snapshot.picked, snapshot.settings.palette)
-        if pair is not self._pair or told != self._told:
-            self._pair, self._told = pair, told
+        picked, palette = shown = (snapshot.picked, snapshot.settings.palette)
+        if pair is not self._pair or shown != self._shown:
+            self._pair, self._shown = pair, shown
             self._explain(pair, picked, snapshot.parameters, palette)
 
     def _explain(
@@ -117,7 +117,7 @@ class ExplainPanel(Panel):
             clusters,
             picked,
             palette,
-            # A click on the picked one lets it go.
+            # A click on the picked one clears the selection.
             lambda cluster: sets(self._list, _NONE if cluster.index == picked else _name(cluster)),
         )
         self._draw_histograms(clusters, cluster, parameters, palette)

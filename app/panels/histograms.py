@@ -1,4 +1,4 @@
-"""Histograms as pictures in the page, drawn in the page's own colours, light or dark."""
+"""Histograms as SVG, in the page's light or dark colours."""
 
 import math
 from collections import Counter
@@ -16,16 +16,16 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 22, 292, 30, 76
 
 @dataclass(frozen=True)
 class Histogram:
-    """Counts of values from 0 on, in bars stacked by label, with a threshold as a line.
+    """Histogram of values from 0, bars stacked by label, with a threshold as a line.
 
     Attributes:
-        title: what is counted, with its unit.
+        title: quantity, with its unit.
         values: (value, label) each; NaN is left out.
-        upper: end of the last bar, which takes what lies beyond it too.
-        bars: how many there are.
+        upper: end of the last bar, which also counts all larger values.
+        bars: number of bars.
         threshold: its symbol and its value.
         palette: of the drawing.
-        marked: the value that a mark stands below, None for none.
+        marked: value to mark below the axis, None for none.
     """
 
     title: str
@@ -45,7 +45,7 @@ class Histogram:
         return counts
 
     def svg(self) -> str:
-        """The picture, as wide as the panel."""
+        """SVG as wide as the panel."""
         symbol, threshold = self.threshold
         counts = self.counts()
         highest = max([1, *(bar.total() for bar in counts)])
@@ -94,7 +94,7 @@ class Histogram:
 
 
 def upper_limit(values: Iterable[float]) -> float:
-    """A round number (1, 2 or 5 times a power of ten) not below any of the values."""
+    """Least number of 1, 2 or 5 times a power of ten not below any of the values."""
     largest = max((value for value in values if value > 0), default=1.0)
     power = 10.0 ** math.floor(math.log10(largest))
     return next(step * power for step in (1, 2, 5, 10) if step * power >= largest * (1 - 1e-9))

@@ -1,4 +1,4 @@
-"""The legend that lies over the scene."""
+"""Legend over the scene."""
 
 import json
 
@@ -7,7 +7,7 @@ from app.panels.panel import Panel, PanelContext
 from app.scene.legend_html import html
 from app.session.snapshot import Snapshot
 
-# It is no part of viser's panels, so that it stays where these are folded away.
+# Outside viser's panels, so that it stays visible when these are folded.
 _SCRIPT = """
 let legend = document.getElementById("tofscope-legend");
 if (!legend) {
@@ -20,14 +20,14 @@ legend.innerHTML = %s;
 
 
 class LegendPanel(Panel):
-    """Meaning of the colours, in the corner of the scene."""
+    """Legend in the corner of the scene."""
 
     def __init__(self, context: PanelContext) -> None:
-        self._client, self._said = context.client, ""
+        self._client, self._shown = context.client, ""
 
     def show(self, snapshot: Snapshot) -> None:
-        """Say what the colours mean that are drawn now."""
+        """Show the legend of the current drawing."""
         content = html(snapshot.legend) if snapshot.settings.legend else ""
-        if content != self._said:
-            self._said = content
+        if content != self._shown:
+            self._shown = content
             run_script(self._client, _SCRIPT % json.dumps(content))

@@ -1,4 +1,4 @@
-"""Link to what is shown."""
+"""Link to the current state of a session."""
 
 from dataclasses import dataclass
 
@@ -17,10 +17,10 @@ _SENTENCE = (
 
 @dataclass(frozen=True)
 class CopyLink(LatestWins):
-    """Hand out a link that leads to what is shown."""
+    """Copy a link to the current recording, frame, camera and parameters."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Give it to the browser's clipboard, or to the person where that is closed."""
+        """Send the link and a notice to the browser."""
         if (saved := workbench.saved()) is not None:
             workbench.outbox += [
                 LinkToCopy(saved.token()),
@@ -29,7 +29,7 @@ class CopyLink(LatestWins):
 
 
 class LinkPanel(Panel):
-    """A button that copies a link."""
+    """Button that copies a link."""
 
     def __init__(self, context: PanelContext) -> None:
         button = context.client.gui.add_button(

@@ -1,4 +1,4 @@
-"""The whole recording as one HTML file, made while the session goes on."""
+"""Export of the whole recording as one HTML file, in the background."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,21 +19,21 @@ from app.session.tasks import Report
 from app.session.workbench import Workbench
 
 _TITLE = "Offline page"
-_QUIET = 0.02  # seconds without work in the foreground, before the next frame
-_PATIENCE = 0.5  # seconds after which it goes on all the same
+_QUIET = 0.02  # seconds without foreground work before the next frame
+_PATIENCE = 0.5  # seconds after which it continues in any case
 
 
 @dataclass(frozen=True)
 class SaveOfflinePage(LatestWins):
-    """Save the recording as a page."""
+    """Save the recording as an offline page."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Begin to make it, as the scene is seen now.
+        """Start the export with the current view, settings and parameters.
 
-        The recording stays open for it, whatever the session opens meanwhile.
+        The export keeps the recording open, even if the session opens another.
 
         Raises:
-            InputError: one is being made already.
+            InputError: another export is running.
             RecordingError: the recording cannot be opened.
         """
         saved, library, estimates = workbench.saved(), workbench.library, workbench.estimates
@@ -50,7 +50,7 @@ class SaveOfflinePage(LatestWins):
 
 
 class OfflinePagePanel(Panel):
-    """A button that makes an offline page in the background."""
+    """Button that exports an offline page."""
 
     def __init__(self, context: PanelContext) -> None:
         button = context.client.gui.add_button(
@@ -94,5 +94,5 @@ def _make(
     finally:
         library.release(opened.entry)
     name, content = f"{safe(opened.recording.name)}.html", page.encode()
-    said = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
-    return Download(name, content), Notice(_TITLE, said, "green", seconds=10.0)
+    sentence = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
+    return Download(name, content), Notice(_TITLE, sentence, "green", seconds=10.0)

@@ -1,4 +1,4 @@
-"""The page of one browser client: its panels, in their order."""
+"""Page of one browser client, with all panels."""
 
 from collections.abc import Sequence
 
@@ -58,16 +58,16 @@ class Page:
         self._panels: list[Panel] = [panel(context) for panel in _PANELS]
 
     def announce(self, status: Status) -> None:
-        """Show what needs no drawing, and hand messages to the browser."""
+        """Show state that needs no drawing, and send messages to the browser."""
         try:
             for panel in self._panels:
                 panel.announce(status)
         finally:
-            # A message comes after the state that it tells of.
+            # Messages refer to the state, which is shown first.
             self._deliver(status)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show what was drawn, and hand messages to the browser."""
+        """Show the state after drawing, and send messages to the browser."""
         try:
             if snapshot.opened is not self._opened:
                 self._open(snapshot.opened)
@@ -89,10 +89,10 @@ class Page:
 
 
 def show_empty_page(client: viser.ClientHandle, folders: Sequence[str]) -> None:
-    """Say what to do where there is nothing to open."""
-    places = "\n".join(f"- `{folder}`" for folder in folders)
+    """Show instructions in place of panels if there is no recording."""
+    listed = "\n".join(f"- `{folder}`" for folder in folders)
     client.gui.add_markdown(
-        f"**There is no recording here.**\n\nTofscope looked for `*.mcap` files in\n\n{places}\n\n"
+        f"**There is no recording here.**\n\nTofscope looked for `*.mcap` files in\n\n{listed}\n\n"
         "Put a recording there and reload this page, or start `tofscope view` with the path of a "
         "recording, or without a path to see the samples."
     )

@@ -1,4 +1,4 @@
-"""Base of the page's panels: each posts commands, and shows the session's snapshot."""
+"""Base class of the page's panels, which post commands and show snapshots."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,14 +14,14 @@ from estimator import Parameters
 
 @dataclass(frozen=True)
 class PanelContext:
-    """Surroundings that a panel is made in.
+    """Arguments of a panel's constructor.
 
     Attributes:
         client: the browser client.
-        entries: recordings to choose from, at least one.
-        parameters: to begin with.
-        settings: to begin with.
-        post: takes commands, from any thread.
+        entries: listed recordings, at least one.
+        parameters: initial ones.
+        settings: initial ones.
+        post: queues a command; thread-safe.
     """
 
     client: viser.ClientHandle
@@ -32,19 +32,19 @@ class PanelContext:
 
 
 class Panel:
-    """Part of the page. Its methods are called by the session's thread alone.
+    """Part of the page; its methods are called by the session's thread alone.
 
-    A panel adds its controls when it is made, and posts commands from their callbacks.
+    The constructor adds controls, whose callbacks post commands.
     """
 
     def __init__(self, context: PanelContext) -> None:
         del context
 
     def open(self, opened: Opened) -> None:
-        """Prepare for a recording that was opened, before anything of it is shown."""
+        """Prepare for a newly opened recording, before its first snapshot."""
 
     def announce(self, status: Status) -> None:
-        """Show what needs not wait until a recording is opened or a frame is estimated."""
+        """Show state that need not wait for opening or estimating."""
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show the session's state after drawing; called whenever it may have changed."""
+        """Show the session's state after drawing; called after every possible change."""

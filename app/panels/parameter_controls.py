@@ -1,4 +1,4 @@
-"""Controls of parameters, made from their description."""
+"""Controls of parameters, created from their descriptions."""
 
 from typing import Any
 
@@ -7,25 +7,25 @@ import viser
 from estimator import ParameterInfo, method_names
 
 UNSET = 0
-"""Number in the field of a parameter that is unset."""
+"""Number that stands for an unset parameter in its field."""
 
 Control = viser.GuiInputHandle[Any]
 
 
 def label_of(name: str, info: ParameterInfo) -> str:
-    """Label of a parameter's control: its symbol, or its name without its method's."""
-    # A label's column breaks longer words anywhere.
+    """Label of a parameter's control: its symbol, or its name without the method's prefix."""
+    # Longer words would be broken in the label's column.
     plain = name.rpartition(".")[2].replace("_", " ").replace("correspondence", "corresp.")
     return info.symbol or plain
 
 
 def shown_value(value: object) -> Any:  # noqa: ANN401 (of any parameter)
-    """A parameter's value as its control holds it."""
+    """Convert a parameter's value to that of its control."""
     return UNSET if value is None else value
 
 
 def entered_value(control: Control, info: ParameterInfo) -> Any:  # noqa: ANN401
-    """The parameter's value that a control holds."""
+    """Convert a control's value to that of its parameter."""
     return None if info.optional and control.value == UNSET else control.value
 
 
@@ -42,8 +42,8 @@ def add_control(gui: viser.GuiApi, name: str, info: ParameterInfo, value: Any) -
         return gui.add_checkbox(label, value, hint=hint)
     if info.kind is str:
         return gui.add_text(label, value, hint=hint)
-    # Without limits of its own, which would change what a person types without a word: what is out
-    # of range is refused in words.
+    # Without limits, which would silently change typed values: values out of range are refused with
+    # a reason.
     return gui.add_number(
         label,
         initial_value=shown_value(value),
@@ -57,11 +57,11 @@ def _add_slider(
 ) -> viser.GuiSliderHandle[Any]:
     assert info.slider is not None
     low, high, step = (info.kind(end) for end in info.slider)
-    # A longer unit would run into the number beside the slider; the hint says it.
+    # A longer unit would overlap the slider's number; the hint contains it.
     unit = f" {info.unit}" if info.kind is float and len(info.unit) == 1 else ""
     return gui.add_slider(
         label,
-        # A flag may have asked for more than the slider offers.
+        # A flag may have set a value beyond the slider's range.
         min=min(low, value),
         max=max(high, value),
         step=step,
@@ -72,6 +72,6 @@ def _add_slider(
 
 
 def _hint(info: ParameterInfo) -> str:
-    said = f"{info.text} [{info.unit}]" if info.unit else info.text
+    text = f"{info.text} [{info.unit}]" if info.unit else info.text
     known = info.default is not None and info.kind is not bool
-    return f"{said}; default {info.default}" if known else said
+    return f"{text}; default {info.default}" if known else text

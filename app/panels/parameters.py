@@ -1,4 +1,4 @@
-"""The estimator's parameters: sliders, the method, the others folded."""
+"""Controls of the estimator's parameters."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -23,32 +23,32 @@ from app.session.tuning import Refusal
 from app.session.workbench import Workbench
 from estimator import PARAMETER_INFO, ParameterInfo, all_methods, find_method, values_of
 
-_READING = 4.0  # seconds for which a refusal is seen after the old value has come back
+_READING = 4.0  # seconds to show a refusal after the old value was restored
 
 
 @dataclass(frozen=True)
 class UndoParameters:
-    """Undo this many changes, or redo where it is negative."""
+    """Undo this many changes, or redo them if negative."""
 
     changes: int
 
     def merged_with(self, earlier: Self) -> Self:
-        """Both."""
+        """Add up the changes."""
         return type(self)(earlier.changes + self.changes)
 
     def apply(self, workbench: Workbench) -> None:
-        """Go through the history."""
+        """Undo or redo them."""
         workbench.tuning.undo(self.changes)
 
 
 class ParametersPanel(Panel):
-    """Controls of the parameters that the method uses; values out of range are refused in words."""
+    """Controls of the method's parameters; values out of range are refused with a reason."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
         self._infos = {"method": PARAMETER_INFO["method"], **_all_infos()}
         self._controls: dict[str, Any] = {}
-        self._refused: set[str] = set()  # parameters in whose controls a refused value stands
+        self._refused: set[str] = set()  # parameters whose controls hold a refused value
         self._put_back: set[str] = set()
         self._readable_until = 0.0
         self._revision = 0
@@ -95,34 +95,34 @@ class ParametersPanel(Panel):
             post(UndoParameters(1 if history.value == "Undo" else -1))
 
         _add_commands(gui, frozenset(self._infos), post)
-        self._offer(context.parameters.method)
+        self._show_controls(context.parameters.method)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Say whose parameters these are, where two sets are compared."""
+        """Name the edited side, A or B, in the folder's title."""
         compared = snapshot.comparison
         self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
 
     def announce(self, status: Status) -> None:
-        """Show values that something else has set, and say what is refused.
+        """Show values that were set other than by their controls, and refusals.
 
-        Other controls are not set: a person may be moving them. A refused value stays in its
-        control, so that a person can go on typing, until it is taken, put back or replaced.
+        Other controls are left alone, since the user may be moving them. A refused value stays in
+        its control, so that the user can go on typing, until it is accepted, clamped or replaced.
         """
         values = values_of(status.parameters)
         for name, control in self._controls.items():
             if self._infos[name].slider:
-                # More than a slider offers may be typed, or come from a file.
+                # Typed or loaded values may exceed the slider's range.
                 control.max = max(control.max, values[name])
         refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
         anew = status.parameters_revision != self._revision
         for name in self._controls if anew else self._refused - refused:
             show_value(self._controls[name], shown_value(values[name]))
         self._refused, self._revision = refused, status.parameters_revision
-        self._offer(status.parameters.method)
-        self._say(status.refusals)
+        self._show_controls(status.parameters.method)
+        self._show_refusal(status.refusals)
 
-    def _offer(self, method: str) -> None:
-        """Show the controls of the parameters that a method uses, and hide all others."""
+    def _show_controls(self, method: str) -> None:
+        """Show the controls of a method's parameters, and hide all others."""
         if method == self._method:
             return
         self._method = method
@@ -135,7 +135,7 @@ class ParametersPanel(Panel):
         self._resets["All"] = frozenset(self._infos)
         self._reset.options = tuple(self._resets)
 
-    def _say(self, refusals: Mapping[str, Refusal]) -> None:
+    def _show_refusal(self, refusals: Mapping[str, Refusal]) -> None:
         put_back = {name for name, refusal in refusals.items() if refusal.put_back}
         if put_back - self._put_back:
             self._readable_until = time.monotonic() + _READING
@@ -150,7 +150,7 @@ class ParametersPanel(Panel):
             )
 
     def _connect(self, name: str, post: Callable[[Command], None]) -> None:
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @self._controls[name].on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
@@ -162,7 +162,7 @@ class ParametersPanel(Panel):
 
 
 def _all_infos() -> dict[str, ParameterInfo]:
-    """{name: description} of the parameters of all methods, shared ones first."""
+    """{name: description} of all methods' parameters, shared ones first."""
     shared = {name: info for name, info in PARAMETER_INFO.items() if name != "method"}
     return shared | {n: info for method in all_methods() for n, info in method.infos().items()}
 
@@ -181,7 +181,7 @@ def _add_commands(
     )
     reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
 
-    # Coroutines run at once, so that keys are taken in their order.
+    # Coroutines run at once, so that keys keep their order.
     @undo.on_trigger
     async def _(_: viser.CommandEvent) -> None:
         post(UndoParameters(1))

@@ -1,4 +1,4 @@
-"""Playback: slider, timeline, play and pause, steps, speed, loop and range."""
+"""Controls of playback: slider, timeline, play, steps, speed, loop and range."""
 
 from typing import Any
 
@@ -26,7 +26,7 @@ _JUMPS = {"Previous": -1, "Next": 1}
 
 
 class PlaybackPanel(Panel):
-    """Scrub and play."""
+    """Controls to seek and play."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
@@ -64,7 +64,7 @@ class PlaybackPanel(Panel):
                     "Range", min=0, max=1, step=1, initial_value=(0, 1), hint="Frames to play."
                 )
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @self._slider.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
@@ -99,7 +99,7 @@ class PlaybackPanel(Panel):
         add_commands(gui, post)
 
     def open(self, opened: Opened) -> None:
-        """Prepare for a recording's frames."""
+        """Set the controls' range to the recording's frames."""
         last = max(len(opened.recording) - 1, 0)
         self._slider.max = last
         self._range.max = max(last, 1)
@@ -108,7 +108,7 @@ class PlaybackPanel(Panel):
         self._arrived = False
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show where playback is."""
+        """Show the current frame and the state of playback."""
         stamps = snapshot.opened.recording.stamps
         if not snapshot.seeking:
             show_value(self._slider, snapshot.frame)
@@ -129,8 +129,8 @@ class PlaybackPanel(Panel):
         self._follow(snapshot.playback)
 
     def _follow(self, playback: Playback) -> None:
-        # Keys change speed and loop too; the range has no keys, and is left to its slider. What has
-        # not changed is not set: a person may be setting it at this very moment.
+        # Keys change speed and loop, too. Unchanged controls are not set, since the user may be
+        # moving them; the range, which has no keys, is set only once per recording.
         if playback != self._followed:
             self._followed = playback
             show_value(self._speed, speed_name(playback.speed))

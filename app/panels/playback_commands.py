@@ -1,4 +1,4 @@
-"""Commands of playback, and the command palette's entries and keys for them."""
+"""Commands of playback, with their keys and entries in the command palette."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -16,14 +16,14 @@ from app.session.outbox import Notice
 from app.session.workbench import Workbench
 
 STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
-"""{what a button says: frames to go}."""
+"""{label of the button: frames to step}."""
 
 _LAST = 1_000_000_000  # frames: beyond the end of every recording
 
 
 @dataclass(frozen=True)
 class ChangePlayback:
-    """Play otherwise, {field of `Playback`: value}, from now on."""
+    """Change playback, {field of `Playback`: value}."""
 
     values: Mapping[str, Any]
 
@@ -32,13 +32,13 @@ class ChangePlayback:
         return type(self)({**earlier.values, **self.values})
 
     def apply(self, workbench: Workbench) -> None:
-        """Take them."""
+        """Change the fields."""
         workbench.clock.change(dict(self.values), workbench.frame, monotonic())
 
 
 @dataclass(frozen=True)
 class JumpToMotion:
-    """Go to where something begins to move, as often as there are directions.
+    """Seek to starts of motion.
 
     Attributes:
         directions: onwards (1) or backwards (-1).
@@ -51,23 +51,23 @@ class JumpToMotion:
         return type(self)(earlier.directions + self.directions)
 
     def apply(self, workbench: Workbench) -> None:
-        """Go there, or say that there is no such place."""
+        """Seek, or post a notice if there is no motion in a direction."""
         for direction in self.directions:
             _jump(workbench, direction)
 
 
 @dataclass(frozen=True)
 class ChangeSpeed:
-    """Go this many of the offered speeds faster, or slower where it is negative."""
+    """Change speed by this many of the selectable speeds, negative for slower."""
 
     steps: int
 
     def merged_with(self, earlier: Self) -> Self:
-        """Both changes."""
+        """Add up the steps."""
         return type(self)(earlier.steps + self.steps)
 
     def apply(self, workbench: Workbench) -> None:
-        """Play so."""
+        """Set the speed."""
         clock = workbench.clock
         index = SPEEDS.index(clock.playback.speed) + self.steps
         speed = SPEEDS[min(max(index, 0), len(SPEEDS) - 1)]
@@ -76,27 +76,27 @@ class ChangeSpeed:
 
 @dataclass(frozen=True)
 class ToggleLoop(Repeated):
-    """Loop where it does not, and the other way round, this many times."""
+    """Toggle the loop, this many times."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Play so."""
+        """Switch the loop on or off."""
         clock = workbench.clock
         loop = clock.playback.loop ^ bool(self.times % 2)
         clock.change({"loop": loop}, workbench.frame, monotonic())
 
 
 def speed_name(speed: float) -> str:
-    """Speed as the page writes it."""
+    """Text of a speed."""
     return f"{speed:g}x"
 
 
 def speed_from(name: str) -> float:
-    """Speed from what the page writes."""
+    """Speed of a text of `speed_name`."""
     return float(name.removesuffix("x"))
 
 
 def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
-    """Add all of it to the command palette, with keys."""
+    """Add the commands to the command palette, with keys."""
 
     def add(
         label: str,
@@ -107,13 +107,13 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     ) -> None:
         command = gui.add_command(label, hotkey=key, modifier=modifier, icon=icon)
 
-        # A coroutine runs at once, so that keys are taken in their order.
+        # A coroutine runs at once, so that keys keep their order.
         @command.on_trigger
         async def _(_: viser.CommandEvent) -> None:
             post(posted)
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
-    # viser writes the arrows' names as they come; the signs say it better.
+    # The palette shows raw names such as arrowleft; the arrow signs in labels are clearer.
     add("Previous frame", step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
     add("Next frame", step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
     add("Previous frame (←)", step(-1), "arrowleft", icon=Icon.PLAYER_TRACK_PREV)

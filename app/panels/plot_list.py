@@ -1,4 +1,4 @@
-"""List of the plots, and their looks."""
+"""Definitions and style of the plots."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -21,12 +21,12 @@ _SMALL = "font-size: 0.75rem; padding: 0 1em; line-height: 1.5"
 
 @dataclass(frozen=True)
 class Line:
-    """One kind of points in a plot.
+    """One series of points in a plot.
 
     Attributes:
-        label: for people to read, empty where the plot's title says it.
-        name: attribute of the survey.
-        colour: of the points, as in the scene where they stand for something in it.
+        label: empty if the plot's title suffices.
+        name: attribute or metric of the survey.
+        colour: of the points, as in the scene.
         needs_truth: whether it is empty without truth.
     """
 
@@ -42,12 +42,12 @@ class PlotSpec:
 
     Attributes:
         title: without the unit.
-        unit: empty where there is none.
+        unit: "" for none.
         form: format of its values.
-        lines: that are drawn.
-        needs_truth: whether there is nothing to draw without truth.
+        lines: its series.
+        needs_truth: whether all series need truth.
         top: end of the vertical axis, None to follow the data.
-        signed: whether values may be below 0, which is then in the middle of the axis.
+        signed: whether values may be negative; 0 is then in the middle of the axis.
     """
 
     title: str
@@ -61,7 +61,7 @@ class PlotSpec:
     def heading(
         self, survey: Survey | None, frame: int, colours: Palette, *, has_truth: bool
     ) -> str:
-        """HTML: title, and the values at a frame, as far as there can be any."""
+        """HTML of the title and of the values at a frame."""
         lines = [line for line in self.lines if has_truth or not line.needs_truth]
         values = "".join(self._value(line, survey, frame, colours) for line in lines)
         unit = f' <span style="opacity: 0.6">[{self.unit}]</span>' if self.unit else ""
@@ -75,11 +75,11 @@ class PlotSpec:
         return tuple(_values(survey, line.name) for line in self.lines)
 
     def scales(self, seconds: float, survey: Survey | None) -> dict[str, Any]:
-        """Axes: the whole recording; from 0, or both ways, to a round number beyond all values."""
+        """Axis ranges: the whole recording; values from 0, or symmetric, to a round number."""
         top = self.top
         if top is None:
             top = _above(np.abs(np.concatenate(self.data(survey))) if survey else np.zeros(0))
-        # Values at either end are drawn whole.
+        # A margin, so that points at the ends are not cut.
         bottom = -1.06 * top if self.signed else -0.06 * top
         return {
             "x": {"time": False, "range": (0.0, seconds)},
@@ -87,8 +87,8 @@ class PlotSpec:
         }
 
     def series(self, colours: Palette) -> Any:  # noqa: ANN401 (viser's dictionaries)
-        """Style of its times and lines: points, since lines would bridge what is undefined."""
-        # Of equal values both are seen, the later in front of a larger one.
+        """Style of the series: points, since lines would bridge undefined values."""
+        # Equal values stay visible: later series have smaller points in front.
         sizes = (4,) if len(self.lines) == 1 else (6, *[3] * (len(self.lines) - 1))
         return (
             {},
@@ -109,17 +109,17 @@ class PlotSpec:
         )
 
     def label_times(self, handle: viser.GuiUplotHandle, *, labelled: bool) -> None:
-        """Label its horizontal axis or not, as high as that makes it."""
+        """Show or hide the labels of the horizontal axis, and adapt the height."""
         handle.axes = _axes(labelled=labelled)
         handle.height = _HEIGHT + (14 if labelled else 0)
 
     def add_to(self, gui: viser.GuiApi, colours: Palette) -> viser.GuiUplotHandle:
-        """Add it to a page, its horizontal axis without labels."""
+        """Add the plot to a page, without labels of its horizontal axis."""
         options: dict[str, Any] = {
             "scales": self.scales(1.0, None),
             "axes": _axes(labelled=False),
             "legend": {"show": False},
-            # A click goes to a frame, and must not be the beginning of a zoom.
+            # Clicks seek, and must not start a zoom.
             "cursor": {
                 "drag": {"x": False, "y": False},
                 "y": False,
@@ -157,7 +157,7 @@ def _flow(colours: Palette) -> Colour:
 
 
 def _metric_plots() -> Iterator[PlotSpec]:
-    """A plot of each error, and one of all shares."""
+    """One plot per error, and one of all shares."""
     infos = {name: METRIC_INFO[name] for name in PLOTTED}
     for name, info in infos.items():
         if info.kind in ("error", "signed"):
@@ -195,32 +195,32 @@ PLOTS = (
 
 
 def summary(survey: Survey | None, *, has_truth: bool) -> str:
-    """HTML: the means over the pairs that count, how far they are, or why there are none.
+    """HTML of the means over the pairs that count, of their progress, or of why there are none.
 
-    Equally high whatever is said.
+    Its height is constant, so that the plots below stay in place.
     """
     share = float(survey.done.mean()) if survey else 0.0
     if survey is None or share < 1:
         frames = f"{np.count_nonzero(survey.done)} of {len(survey)} frames" if survey else ""
-        said = f"Computing the whole recording: {frames}"
+        sentence = f"Computing the whole recording: {frames}"
     elif not has_truth:
-        said = "No truth in this recording: no errors, coverage and precision."
+        sentence = "No truth in this recording: no errors, coverage and precision."
     else:
-        said = _means(survey)
+        sentence = _means(survey)
     bar = (
         '<div style="height: 3px; border-radius: 2px; background: currentColor;'
         f' width: {100 * share:.0f}%; opacity: {0.5 if share < 1 else 0}"></div>'
     )
-    return f'<div style="{_SMALL}"><div style="min-height: 4.5em">{said}</div>{bar}</div>'
+    return f'<div style="{_SMALL}"><div style="min-height: 4.5em">{sentence}</div>{bar}</div>'
 
 
 def _means(survey: Survey) -> str:
     metrics = survey.summary()
     if metrics.pairs == 0:
-        said = "No pair counts: the object must move at both of its frames."
+        sentence = "No pair counts: the object must move at both of its frames."
         flagged = format(100 * metrics.false_flow, ".2f")
         known = not math.isnan(metrics.false_flow)
-        return f"{said} Of the points at rest {flagged} % got a flow." if known else said
+        return f"{sentence} Of the points at rest {flagged} % got a flow." if known else sentence
     cells = []
     for name in PLOTTED:
         value = getattr(metrics, name)
@@ -238,7 +238,7 @@ def _means(survey: Survey) -> str:
 
 
 def _above(values: np.ndarray) -> float:
-    """1, 2 or 5 times a power of ten that is not below any of the values."""
+    """Least of 1, 2 or 5 times a power of ten that is not below any of the values."""
     largest = float(np.nanmax(values)) if np.isfinite(values).any() else 0.0
     if largest <= 0:
         return 1.0

@@ -1,4 +1,4 @@
-"""Plots of numbers over the whole recording, filled in the background."""
+"""Plots over the whole recording, filled in the background."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from app.session.workbench import Workbench
 from recordings import Recording
 
 _WIDTH = 300  # pixels
-_NARROW = 900  # pixels of the scene, of which the plots would take too much
+_NARROW = 900  # width of a scene in pixels, up to which the plots start folded
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class SavePlots(LatestWins):
     """Save the numbers of the plots as a CSV file."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Put the file together, where there are numbers."""
+        """Export the survey, if there is one."""
         survey = workbench.survey.survey
         if workbench.opened is not None and survey is not None:
             recording = workbench.opened.recording
@@ -39,7 +39,7 @@ class SavePlots(LatestWins):
 
 
 class PlotsPanel(Panel):
-    """Plots every frame's numbers, says their means, and goes where a person clicks."""
+    """Plots of all frames with their means; clicks seek."""
 
     def __init__(self, context: PanelContext) -> None:
         self._client, gui = context.client, context.client.gui
@@ -64,7 +64,7 @@ class PlotsPanel(Panel):
 
         command = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @save.on_click
         async def _(_: viser.GuiEvent) -> None:
             context.post(SavePlots())
@@ -74,7 +74,7 @@ class PlotsPanel(Panel):
             context.post(SavePlots())
 
     def open(self, opened: Opened) -> None:
-        """Prepare for a recording's time and truth."""
+        """Set axes, and select plots by whether there is truth."""
         recording = opened.recording
         end = _seconds(recording.stamps)
         self._time.open(opened)
@@ -88,7 +88,7 @@ class PlotsPanel(Panel):
                 handle.scales = plot.scales(end, None)
 
     def show(self, snapshot: Snapshot) -> None:
-        """Plot what is known by now, and draw the line at the frame."""
+        """Update the plots, and the line at the current frame."""
         recording, survey = snapshot.opened.recording, snapshot.survey
         if survey is None:
             self._summary.content = summary(None, has_truth=recording.has_truth)
@@ -109,9 +109,9 @@ class PlotsPanel(Panel):
                 handle.series = plot.series(colours)
 
     def _plot(self, recording: Recording, survey: Survey) -> None:
-        # Other scales make the page build a plot anew, and so do the same ones once more. A plot
-        # that is given data while it is still being built loses its horizontal axis: the last data
-        # come with building it, and so do the first, which may follow `open` at once.
+        # Assigning scales, even equal ones, makes the page rebuild a plot. A plot that gets data
+        # during a rebuild loses its horizontal axis: so the first data, which may follow `open` at
+        # once, and the last data come together with scales.
         anew = self._plotted is not survey or survey.complete
         self._summary.content = summary(survey, has_truth=recording.has_truth)
         times = recording.stamps - recording.stamps[0]
@@ -127,5 +127,5 @@ class PlotsPanel(Panel):
 
 
 def _seconds(stamps: NDArray[np.float64]) -> float:
-    """Length of a recording, above 0 also where it has one frame only."""
+    """Duration of a recording, above 0 even for a single frame."""
     return max(float(stamps[-1] - stamps[0]), 1e-3)

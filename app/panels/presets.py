@@ -1,4 +1,4 @@
-"""Presets: parameters under names and in files, saved, loaded and deleted."""
+"""Presets: parameters saved under names or in files."""
 
 import time
 from dataclasses import dataclass
@@ -20,29 +20,29 @@ from estimator import Parameters
 
 _NONE: str = "(none saved yet)"
 _USES: dict[str, Literal["load", "delete"]] = {"Load": "load", "Delete": "delete"}
-_AGE = 2.0  # seconds after which they are listed again
-_LARGEST = 100_000  # bytes of a file of parameters
+_AGE = 2.0  # seconds after which the list is refreshed
+_LARGEST = 100_000  # maximum bytes of a parameter file
 
 
 @dataclass(frozen=True)
 class SaveParameters(LatestWins):
-    """Save the parameters as a file that the command line takes."""
+    """Save the parameters as a file for the command line."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Put the file together."""
+        """Put the file into the outbox."""
         content = to_text(workbench.tuning.parameters).encode()
         workbench.outbox.append(Download("parameters.json", content))
 
 
 @dataclass(frozen=True)
 class OpenParameters(LatestWins):
-    """Take the parameters of a file."""
+    """Load the parameters of an uploaded file."""
 
     name: str
     content: bytes
 
     def apply(self, workbench: Workbench) -> None:
-        """Take them, or say why not."""
+        """Load them; InputError if the file is invalid."""
         if len(self.content) > _LARGEST:
             raise InputError(f"{self.name} is too large for a file of parameters.")
         try:
@@ -54,13 +54,13 @@ class OpenParameters(LatestWins):
 
 @dataclass(frozen=True)
 class UsePreset(LatestWins):
-    """Load, save or delete the preset of a name."""
+    """Load, save or delete a preset."""
 
     action: Literal["load", "save", "delete"]
     name: str
 
     def apply(self, workbench: Workbench) -> None:
-        """Do it, or say why not."""
+        """Run the action; InputError if it fails."""
         presets, done = Presets(preset_folder()), False
         try:
             match self.action:
@@ -84,7 +84,7 @@ def _saved(presets: Presets, name: str, parameters: Parameters) -> Notice:
 
 
 class PresetsPanel(Panel):
-    """A list of presets, a field for the name of another, and files."""
+    """Controls to save, load and delete presets and files."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
@@ -112,7 +112,7 @@ class PresetsPanel(Panel):
                 hint="A file of parameters, as Save as a file makes it.",
             )
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @uses.on_click
         async def _(_: viser.GuiEvent) -> None:
             if self._list.value != _NONE:
@@ -138,7 +138,7 @@ class PresetsPanel(Panel):
             post(OpenParameters(file.name, file.content))
 
     def announce(self, status: Status) -> None:
-        """List what is there now: other sessions save and delete, too."""
+        """Refresh the list, which other sessions change, too."""
         use, chosen = status.preset_use, self._list.value
         used, self._use = use is not self._use, use
         if used and use is not None and use.done:

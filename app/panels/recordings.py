@@ -1,4 +1,4 @@
-"""List of recordings, and a description of the one that is open."""
+"""List of recordings, and a description of the open one."""
 
 from collections.abc import Sequence
 from html import escape
@@ -15,7 +15,7 @@ _LINES = 3  # of the longest description
 
 
 class RecordingsPanel(Panel):
-    """Choose a recording."""
+    """List to open a recording from."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
@@ -49,7 +49,7 @@ class RecordingsPanel(Panel):
 
 
 def describe(opened: Opened) -> list[str]:
-    """Size and origin of a recording, in a few short lines."""
+    """Describe size and origin of a recording in short lines."""
     recording = opened.recording
     lines: list[str] = []
     provenance = recording.provenance

@@ -1,4 +1,4 @@
-"""Pictures of the scene as PNG files in the browser's downloads."""
+"""Screenshots of the scene as PNG downloads."""
 
 from dataclasses import dataclass
 
@@ -34,8 +34,8 @@ class TakeScreenshot(LatestWins):
     """Save views as one PNG file, side by side.
 
     Attributes:
-        views: their names; None is the one on the screen.
-        size: width and height of each in pixels; None is that of the scene on the screen.
+        views: their names; None for the view on the screen.
+        size: width and height of each in pixels; None for the scene's on the screen.
         scale: factor of both.
         background: of the scene, one of `_BACKGROUNDS`.
         legend: whether a legend is drawn.
@@ -48,10 +48,10 @@ class TakeScreenshot(LatestWins):
     legend: bool
 
     def apply(self, workbench: Workbench) -> None:
-        """Take it, where there is something to take.
+        """Render the views, and put the file into the outbox.
 
         Raises:
-            InputError: the browser gave no picture.
+            InputError: the browser returned no picture.
         """
         if workbench.opened is None:
             return
@@ -68,12 +68,12 @@ class TakeScreenshot(LatestWins):
         ]
         compared = tuning.comparison
         sides = compared.drawn(tuning.parameters) if compared else {}
-        said = caption(recording, tuning.parameters, workbench.frame, sides)
+        text = caption(recording, tuning.parameters, workbench.frame, sides)
         name = file_name(recording.name, workbench.frame, self.views)
-        workbench.outbox.append(Download(name, png(side_by_side(pictures), said)))
+        workbench.outbox.append(Download(name, png(side_by_side(pictures), text)))
 
     def _take(self, workbench: Workbench) -> tuple[list[NDArray[np.uint8]], Legend]:
-        """Pixels (H, W, 4) of each view, and the legend of their colours."""
+        """Render the pixels (H, W, 4) of each view, and return their legend, too."""
         dark = workbench.settings.dark
         try:
             if workbench.pair is None:
@@ -81,7 +81,7 @@ class TakeScreenshot(LatestWins):
             width, height = self.size or workbench.renderer.size()
             size = (self.scale * width, self.scale * height)
             if self.background == _WHITE:
-                # The colours for a dark background are too pale for a white one.
+                # A dark page's colours are too pale on white.
                 workbench.change_view({"dark": False})
             take = workbench.renderer.render
             return [
@@ -95,7 +95,7 @@ class TakeScreenshot(LatestWins):
 
 
 class ScreenshotPanel(Panel):
-    """Buttons that save the view on the screen, or the two views that papers show."""
+    """Buttons that save the current view, or the 3D and top views."""
 
     def __init__(self, context: PanelContext) -> None:
         gui = context.client.gui
@@ -135,6 +135,6 @@ class ScreenshotPanel(Panel):
 
 
 def file_name(recording: str, frame: int, views: tuple[str | None, ...] = (None,)) -> str:
-    """A name that every file system takes."""
+    """File name that is safe on every file system."""
     names = "".join(f"_{safe(view).lower()}" for view in views if view)
     return f"{safe(recording)}_frame_{frame:04d}{names}.png"

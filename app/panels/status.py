@@ -1,4 +1,4 @@
-"""Numbers of the pair that is shown."""
+"""Numbers of the current pair."""
 
 import math
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ _NOTHING = "–"
 
 @dataclass(frozen=True)
 class Fact:
-    """Number of a pair, with the colour in the scene of what it counts, if that has one."""
+    """A number of a pair, with the scene's colour of what it counts."""
 
     name: str
     value: str
@@ -28,11 +28,11 @@ class Fact:
 
 
 class StatusPanel(Panel):
-    """Counts of points, clusters and labels, the time that the estimate took, and its errors."""
+    """Counts of points, clusters and labels, duration of the estimate, and errors."""
 
     def __init__(self, context: PanelContext) -> None:
         gui = context.client.gui
-        self._said: Pair | None = None
+        self._shown: Pair | None = None
         self._colours: Palette | None = None
         with gui.add_folder("Status"):
             self._content = gui.add_html("")
@@ -40,19 +40,18 @@ class StatusPanel(Panel):
     def show(self, snapshot: Snapshot) -> None:
         """Show the numbers of the pair."""
         if snapshot.pair is None:
-            self._said = None
+            self._shown = None
             self._content.content = _framed("This frame cannot be shown.")
             return
-        if snapshot.pair is self._said and snapshot.settings.palette is self._colours:
+        if snapshot.pair is self._shown and snapshot.settings.palette is self._colours:
             return
-        pair = self._said = snapshot.pair
+        pair = self._shown = snapshot.pair
         colours = self._colours = snapshot.settings.palette
         data = "simulated" if snapshot.opened.recording.simulated else "measured"
         cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Data", data)])
         grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
         note = note_on(pair, snapshot.parameters, snapshot.opened.recording.truth_frame)
-        # The note keeps its place also where there is none: the controls below stay put while a
-        # person drags one of them.
+        # Room for the note is always kept, so that controls below stay in place during a drag.
         note = f'<div style="min-height: 2.4em; line-height: 1.2">{escape(note)}</div>'
         self._content.content = _framed(f'<div style="{grid}">{cells}</div>{note}')
 
@@ -62,7 +61,7 @@ def _framed(content: str) -> str:
 
 
 def facts(pair: Pair, colours: Palette) -> list[Fact]:
-    """The numbers of a pair, two in a row; always the same ones, – for what is not defined."""
+    """All numbers of a pair, in rows of two; – where undefined."""
     source = len(pair.source.points) if pair.source else 0
     flow, errors = pair.flow, pair.errors
     labels = flow.label if flow else None
@@ -91,9 +90,9 @@ def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) 
     """Reason why there is no flow or no truth, and what to do about it.
 
     Args:
-        pair: that is shown.
+        pair: the current one.
         parameters: of its estimate.
-        truth_frame: whose motion the truth is, None where none was named.
+        truth_frame: frame whose motion is the truth, None unless one was given.
     """
     if pair.source is None:
         return f"No pair: frame k-n = {pair.frame - parameters.n} is before the start."

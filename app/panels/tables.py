@@ -1,4 +1,4 @@
-"""Tables of numbers, in the panel's small letters."""
+"""HTML tables in the panels' small font."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from app.scene.colours import Colour, css
 from estimator import METRIC_INFO
 
 PLOTTED = tuple(name for name, info in METRIC_INFO.items() if info.plotted)
-"""Metrics that the page shows for every pair."""
+"""Names of the metrics that the page shows."""
 
 
 @dataclass(frozen=True)
@@ -16,8 +16,8 @@ class Row:
 
     Attributes:
         cells: HTML.
-        mark: colour of a mark before it, None for none.
-        attributes: of its element, such as say what a click on it does.
+        mark: colour of a mark at its left edge, None for none.
+        attributes: HTML attributes, such as for clicks.
     """
 
     cells: Sequence[str]
@@ -26,29 +26,29 @@ class Row:
 
 
 def metric_label(name: str) -> str:
-    """Short title of a metric with its unit, as the page writes it: "Vel. error [m/s]"."""
+    """Short title of a metric with its unit, such as "Vel. error [m/s]"."""
     unit = page_unit(METRIC_INFO[name].unit)
     return metric_title(name) + (f" [{unit}]" if unit else "")
 
 
 def metric_title(name: str) -> str:
-    """Short title of a metric at the beginning of a line."""
+    """Short title of a metric, capitalised."""
     short = METRIC_INFO[name].short
     return short[:1].upper() + short[1:]
 
 
 def page_unit(unit: str) -> str:
-    """A unit as the page writes it."""
+    """Unit as shown on the page."""
     return "°" if unit == "deg" else unit
 
 
 def framed(content: str) -> str:
-    """HTML in the panel's small letters."""
+    """Wrap HTML in the panels' small font."""
     return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
 
 
 def table(head: Sequence[str], rows: Iterable[Row]) -> str:
-    """A table under a head of HTML cells."""
+    """Table with a head of HTML cells."""
     cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
     first = "".join(f"<th {cell}>{name}</th>" for name in head)
     body = "".join(
@@ -64,7 +64,7 @@ def table(head: Sequence[str], rows: Iterable[Row]) -> str:
 
 
 def signed(value: float, form: str) -> str:
-    """A number by a format with a sign, whose minus is as wide as its plus."""
+    """Format a signed number, with a typographic minus as wide as the plus."""
     return form.format(value).replace("-", "−")
 
 

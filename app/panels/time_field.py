@@ -1,4 +1,4 @@
-"""A field with the time that is shown, in which another may be typed."""
+"""Field that shows the current time and seeks to a typed one."""
 
 import math
 import time
@@ -15,17 +15,17 @@ from app.session.command import LatestWins
 from app.session.snapshot import Snapshot, TimeSeek
 from app.session.workbench import Workbench
 
-_TYPING = 2.0  # seconds for which a typed time stays, also while the recording is played
+_TYPING = 2.0  # seconds for which a typed time stays during playback
 
 
 @dataclass(frozen=True)
 class SeekTime(LatestWins):
-    """Go to the frame that is nearest to this time, in seconds from the start."""
+    """Seek to the frame nearest to this time, in seconds from the start."""
 
     seconds: float
 
     def apply(self, workbench: Workbench) -> None:
-        """Go there."""
+        """Seek, and record the seek."""
         if workbench.opened is not None:
             stamps = workbench.opened.recording.stamps
             workbench.seek(int(np.argmin(np.abs(stamps - stamps[0] - self.seconds))))
@@ -33,17 +33,17 @@ class SeekTime(LatestWins):
 
 
 class TimeField:
-    """Field that follows the frame, unless a person is typing; part of a panel.
+    """Field that follows the frame unless the user is typing; part of a panel.
 
     Attributes:
         field: its id in the page.
     """
 
     def __init__(self, context: PanelContext) -> None:
-        self._typed: float | None = None  # a time that the session has not gone to yet
+        self._typed: float | None = None  # a typed time that the session has not reached yet
         self._typed_at = -_TYPING
         self._sought: TimeSeek | None = None
-        self._stays_at: int | None = None  # the frame that a typed time has led to
+        self._stays_at: int | None = None  # the frame of the last typed time
         self._control = context.client.gui.add_number(
             "Go to [s]",
             0.0,
@@ -53,7 +53,7 @@ class TimeField:
         )
         self.field = element_id(self._control)
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @self._control.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
@@ -61,13 +61,13 @@ class TimeField:
                 context.post(SeekTime(self._control.value))
 
     def open(self, opened: Opened) -> None:
-        """Prepare for a recording's time."""
+        """Set the range to the recording's duration."""
         self._typed = self._stays_at = None
         end = float(opened.recording.stamps[-1] - opened.recording.stamps[0])
         self._control.max = math.ceil(1e3 * end) / 1e3
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show the frame's time; a typed one stays until the frame is left that it has led to."""
+        """Show the frame's time; a typed time stays until its frame is left."""
         time_seek = snapshot.time_seek
         if time_seek is not None and time_seek is not self._sought:
             self._stays_at = time_seek.frame

@@ -1,27 +1,27 @@
-"""A slim picture of the timeline, below the frame slider."""
+"""Timeline as a slim SVG strip below the frame slider."""
 
 from app.analysis.timeline import Timeline
 from app.scene.colours import css
 from app.scene.palettes import Palette
 from app.session.clock import Playback
 
-_GAP = 4  # number of the category whose colour gaps have
-_WIDTH = 1000  # of the drawing, stretched to the slider's
-_THIN = 3.0  # width of the mark of a gap
+_GAP = 4  # index of the categorical colour of gaps
+_WIDTH = 1000  # of the SVG, stretched to the slider's width
+_THIN = 3.0  # width of a gap's mark
 
 
 def strip(timeline: Timeline, playback: Playback, palette: Palette, attributes: str) -> str:
-    """HTML: motion, gaps and empty frames along the frames, what is not played pale.
+    """HTML of a strip with motion, gaps, empty frames and the range of playback.
 
     Args:
         timeline: of the recording.
-        playback: how it is played.
+        playback: with the range.
         palette: of the drawing.
-        attributes: of the picture, which say what a click in it does.
+        attributes: HTML attributes of the strip, for clicks.
     """
     x = _Scale(timeline.count)
     flow, nothing, gap = css(palette.flow), css(palette.unassigned), css(palette.category(_GAP))
-    # There may be many gaps: they lie above what moves, and are thin enough to be told apart.
+    # Gaps may be many: their marks are above those of motion, and thin.
     marks = [_bar(x(k - 0.5), x(k - 0.5), 0, 3, gap, thin=_THIN) for k in timeline.gaps]
     marks += [_bar(x(a), x(b), 4, 8, flow) for a, b in timeline.moving]
     marks += [_bar(x(a), x(b), 6, 4, nothing) for a, b in timeline.empty]
@@ -29,12 +29,12 @@ def strip(timeline: Timeline, playback: Playback, palette: Palette, attributes: 
     shown = _bar(x(playback.first), x(playback.last), 7, 2, "currentColor", 0.6)
     legend = [("moving", flow, len(timeline.moving)), ("gap", gap, len(timeline.gaps))]
     legend.append(("empty", nothing, len(timeline.empty)))
-    said = "".join(_key(name, colour) for name, colour, number in legend if number)
-    # The strip lies below the track of viser's slider, between its label and its number.
+    keys = "".join(_key(name, colour) for name, colour, number in legend if number)
+    # Aligned with the track of viser's slider, between its label and its number.
     return (
         '<div style="display: flex; height: 1.5rem; margin-top: -0.4rem; padding: 0 4.4rem 0 1rem;'
         ' font-size: 0.65rem; line-height: 1.15">'
-        f'<div style="width: 6.3rem; flex: none">{said}</div>'
+        f'<div style="width: 6.3rem; flex: none">{keys}</div>'
         f'<svg viewBox="0 0 {_WIDTH} 12" preserveAspectRatio="none" width="100%" height="12"'
         f' style="cursor: pointer" role="img" aria-label="timeline" {attributes}>'
         f"{base}{shown}{''.join(marks)}</svg></div>"
@@ -58,7 +58,7 @@ def _bar(
     opacity: float = 1.0,
     thin: float = 12.0,
 ) -> str:
-    # A single frame is still seen.
+    # A minimum width keeps single frames visible.
     start, width = (start - thin / 2, thin) if end - start < thin else (start, end - start)
     return (
         f'<rect x="{start:.1f}" y="{top}" width="{width:.1f}" height="{height}"'

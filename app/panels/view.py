@@ -1,4 +1,4 @@
-"""View of the scene: the camera's place, colours, sizes, layers."""
+"""Controls of the view: camera, colours, sizes, layers."""
 
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -30,22 +30,22 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
 
 @dataclass(frozen=True)
 class SetView(LatestWins):
-    """Put the camera to the view of this name."""
+    """Move the camera to the view of this name."""
 
     view: str
 
     def apply(self, workbench: Workbench) -> None:
-        """Put it there."""
+        """Move the camera."""
         if workbench.pair is not None:
             workbench.framing.set_view(workbench.pair, self.view)
 
 
 @dataclass(frozen=True)
 class CameraMoved(Background, LatestWins):
-    """The camera has come nearer or gone away, or its picture has got another shape."""
+    """The camera's distance or its aspect ratio has changed."""
 
     def apply(self, workbench: Workbench) -> None:
-        """Draw in sizes that suit it, and take its view anew in another shape."""
+        """Adapt sizes and the view to the camera."""
         workbench.scene.adapt_sizes()
         if workbench.pair is not None:
             workbench.framing.adapt_to_window(workbench.pair)
@@ -55,31 +55,31 @@ class _Toggle(Repeated):
     setting: ClassVar[str]
 
     def apply(self, workbench: Workbench) -> None:
-        """Draw so."""
+        """Toggle the setting, if posted an odd number of times."""
         if self.times % 2:
             before = getattr(workbench.settings, self.setting)
             workbench.change_view({self.setting: not before})
 
 
 class ToggleDark(_Toggle):
-    """Dark where it is light, and the other way round, this many times."""
+    """Toggle the dark theme, as often as posted."""
 
     setting = "dark"
 
 
 class ToggleLegend(_Toggle):
-    """The legend where there is none, and the other way round, this many times."""
+    """Toggle the legend, as often as posted."""
 
     setting = "legend"
 
 
 class ViewPanel(Panel):
-    """Controls of the drawing; none of them makes the estimator run."""
+    """Controls of the drawing; none of them causes an estimate."""
 
     def __init__(self, context: PanelContext) -> None:
         self._gui, self._post = context.client.gui, context.post
         self._settings = context.settings
-        self._dark = False  # a page begins light
+        self._dark = False  # pages start light
         self._legend = self._settings.legend
         with self._gui.add_folder("View"):
             self._add_views(context.client.camera)
@@ -89,7 +89,7 @@ class ViewPanel(Panel):
                 self._add_layers()
 
     def show(self, snapshot: Snapshot) -> None:
-        """Dress the page in light or dark, and follow the commands."""
+        """Apply the theme, and follow changes by commands."""
         if snapshot.settings.legend != self._legend:
             self._legend = snapshot.settings.legend
             show_value(self._legend_box, self._legend)
@@ -117,7 +117,7 @@ class ViewPanel(Panel):
 
         @camera.on_update
         async def _(camera: viser.CameraHandle) -> None:
-            # While it only turns, nothing has to be drawn anew.
+            # A mere rotation needs no redrawing.
             lens, aspect = Lens.of(camera), aspect_of(camera)
             if not lens.similar(drawn[0][0]) or not np.isclose(aspect, drawn[0][1], rtol=0.02):
                 drawn[0] = (lens, aspect)
@@ -163,7 +163,7 @@ class ViewPanel(Panel):
             "picture that is 720 pixels high.",
         )
 
-        # Coroutines run at once, before anything can change a control's value again.
+        # Coroutines run at once, before the control's value can change again.
         @arrow_scale.on_update
         async def _(_: viser.GuiEvent) -> None:
             self._post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.05), 2.0)}))
@@ -192,6 +192,6 @@ class ViewPanel(Panel):
     ) -> None:
         @control.on_update
         async def _(_: viser.GuiEvent) -> None:
-            # A browser could send anything.
+            # A browser may send anything.
             if control.value in choices:
                 self._post(ChangeView({setting: control.value}))

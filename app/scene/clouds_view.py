@@ -90,7 +90,7 @@ class CloudsView:
     def show_truth(
         self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float
     ) -> None:
-        """Draw the moving object's true velocity (3,) from `start` (3,), or nothing for None."""
+        """Draw the moving object's true velocity (3,) from `start` (3,), or none."""
         if velocity is None:
             self._truth.points = _NONE
         else:

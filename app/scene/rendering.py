@@ -49,7 +49,7 @@ class SceneRenderer:
             placed, fov = self._scene.view(pair, view, width / height)
         # The page sizes points for its own window, not for the picture.
         larger = height / self.size()[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
-        with self._scene.sized_for_picture(placed, fov, larger, height):
+        with self._scene.picture_sizes(placed, fov, larger, height):
             self._render(placed, fov, 8, 8)  # new sizes take effect one image late
             return self._render(placed, fov, height, width)
 

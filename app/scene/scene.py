@@ -104,14 +104,10 @@ class Scene:
             view: name of the view.
             aspect: width by height of the picture.
         """
-        camera = self._canvas.camera
         placed, fov = self.view(pair, view, aspect)
-        camera.fov = fov
-        camera.position = placed.position
-        camera.look_at = placed.look_at
-        # Not read back from the camera: the browser may be reporting its old pose right now.
-        self._set_lens(Lens.between(placed.position, placed.look_at, fov))
-        return _camera(placed.position, placed.look_at, fov)
+        camera = Camera.of(placed.position, placed.look_at, fov)
+        self.set_camera(camera)
+        return camera
 
     def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
         """Camera pose of a named view, and its vertical field of view in rad."""
@@ -127,9 +123,7 @@ class Scene:
         return legend(self._shown, self._settings, self._speed_limit, side, self._marked)
 
     @contextmanager
-    def sized_for_picture(
-        self, view: View, fov: float, larger: float, height: int
-    ) -> Iterator[None]:
+    def picture_sizes(self, view: View, fov: float, larger: float, height: int) -> Iterator[None]:
         """Context with sizes, line widths and near plane that suit a picture.
 
         Args:
@@ -155,14 +149,14 @@ class Scene:
     def camera(self) -> Camera:
         """Current camera."""
         camera = self._canvas.camera
-        return _camera(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
+        return Camera.of(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
 
-    def set_camera(self, place: Camera) -> None:
+    def set_camera(self, camera: Camera) -> None:
         """Set the camera."""
-        camera = self._canvas.camera
-        camera.fov, camera.position, camera.look_at = place.fov, place.position, place.look_at
-        position, look_at = np.array(place.position), np.array(place.look_at)
-        self._set_lens(Lens.between(position, look_at, place.fov))
+        handle, position, look_at = self._canvas.camera, camera.position, camera.look_at
+        handle.fov, handle.position, handle.look_at = camera.fov, position, look_at
+        # Not read back from the handle: the browser may be reporting its old pose right now.
+        self._set_lens(Lens.between(np.array(position), np.array(look_at), camera.fov))
 
     def adapt_sizes(self) -> None:
         """Adapt sizes to a camera that has moved; no effect before it was first placed."""
@@ -300,8 +294,3 @@ class Scene:
             for name in names:
                 if node := self._canvas.scene.get_handle_by_name(name):
                     node.visible = layer in self._settings.layers
-
-
-def _camera(position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float) -> Camera:
-    (x, y, z), (a, b, c) = position.tolist(), look_at.tolist()
-    return Camera((x, y, z), (a, b, c), float(fov))

@@ -1,1 +1,1 @@
-"""Web server with one session per browser client: puts state, scene and page together."""
+"""Web server with one session, of state, scene and page, per browser client."""

@@ -1,17 +1,17 @@
-"""Giving memory back to the system after clients have left."""
+"""Return of memory to the system after clients have disconnected."""
 
 import ctypes
 import gc
 import threading
 
-_QUIET = 2.0  # seconds after the last client left, so that many that leave together cost once
+_QUIET = 2.0  # seconds after the last disconnect, so that several cause one collection
 
 
 class MemoryRelease:
-    """Collection of all that left clients held, for the C library to return to the system.
+    """Delayed garbage collection that returns freed memory to the system.
 
-    Messages to a client lie in buffers of megabytes, made in many threads: freed, they stay with
-    the process unless the library is asked to give them back.
+    Many threads buffer messages to clients, megabytes each. The C library keeps freed buffers
+    unless told to return them.
     """
 
     def __init__(self) -> None:
@@ -19,7 +19,7 @@ class MemoryRelease:
         self._timer: threading.Timer | None = None
 
     def soon(self) -> None:
-        """Do it once no client has left for a while."""
+        """Schedule a collection, once no client has disconnected for a while."""
         with self._lock:
             if self._timer:
                 self._timer.cancel()
@@ -28,7 +28,7 @@ class MemoryRelease:
             self._timer.start()
 
     def close(self) -> None:
-        """Do it no more."""
+        """Cancel a scheduled collection."""
         with self._lock:
             if self._timer:
                 self._timer.cancel()

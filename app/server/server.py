@@ -1,4 +1,4 @@
-"""The web server: one session for each browser client."""
+"""Web server with one session per browser client."""
 
 import socket
 import warnings
@@ -15,24 +15,24 @@ from app.server.session import Session, Shared
 
 _PANEL_WIDTH = 360  # pixels
 _ANY = {"0.0.0.0": "127.0.0.1", "::": "::1", "": "127.0.0.1"}
-"""{address that stands for all of this machine: the one that browsers on it use}."""
+"""{wildcard address: the address that browsers on this machine use}."""
 
 
 class Server:
     """Serves sessions until it is closed.
 
     Args:
-        shared: with all sessions.
-        host: address to listen at.
-        port: port to listen at, 0 for any that is free.
+        shared: parts common to all sessions.
+        host: address to listen on.
+        port: port to listen on, 0 for any free one.
 
     Raises:
-        InputError: the port is in use, or there is no such address on this machine.
+        InputError: the port is in use, or this machine has no such address.
     """
 
     def __init__(self, shared: Shared, host: str, port: int) -> None:
         _check_free(host, port)
-        # A client may leave while its session is drawing: what is not delivered is not missed.
+        # A client may disconnect while its session is drawing.
         warnings.filterwarnings("ignore", message=CLOSED_CONNECTION)
         self._sessions: dict[int, Session] = {}
         self._memory = MemoryRelease()
@@ -42,8 +42,8 @@ class Server:
         self._server.gui.main_panel.dock_right()
         self._server.gui.main_panel.set_width(_PANEL_WIDTH)
 
-        # Coroutines run in viser's event loop, one after the other, so that a client's end can
-        # never overtake its beginning.
+        # Coroutines run in viser's event loop in order, so that a client's disconnect cannot
+        # overtake its connect.
         @self._server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:
             self._sessions[client.client_id] = Session(client, shared)
@@ -61,7 +61,7 @@ class Server:
 
     @property
     def address_for_others(self) -> str:
-        """Address of the page for another machine, as far as this one knows its own name."""
+        """Address of the page for other machines, as far as this one knows its own."""
         return self._address(_own_address(self.host) if self.host in _ANY else self.host)
 
     def _address(self, host: str) -> str:
@@ -79,12 +79,12 @@ class Server:
 
 
 def _own_address(host: str) -> str:
-    """The address from which this machine would reach others, or its name where it has none."""
+    """This machine's address towards others, or its host name without a network."""
     version_6 = host == "::"
     family = socket.AF_INET6 if version_6 else socket.AF_INET
     try:
         with socket.socket(family, socket.SOCK_DGRAM) as probe:
-            # An address for documents. To connect a datagram's socket sends nothing.
+            # An address reserved for documentation; connecting a datagram socket sends nothing.
             probe.connect(("2001:db8::1" if version_6 else "192.0.2.1", 9))
             return str(probe.getsockname()[0])
     except OSError:
@@ -92,7 +92,7 @@ def _own_address(host: str) -> str:
 
 
 def _check_free(host: str, port: int) -> None:
-    """Raise InputError where the port cannot be had; viser would quietly take another one."""
+    """Raise InputError if the port is not available; viser would silently take another one."""
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE

@@ -1,4 +1,4 @@
-"""Session of one browser client, in a thread of its own."""
+"""Session of one browser client, in its own thread."""
 
 import logging
 import threading
@@ -41,14 +41,14 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Shared:
-    """Parts that all sessions use together; each is safe under many threads.
+    """Thread-safe parts common to all sessions.
 
     Attributes:
         library: the recordings.
-        estimates: that were computed already.
-        reloads: ended sessions, for when their page is loaded again.
-        parameters: with which a session begins.
-        surveys: of whole recordings, in the background.
+        estimates: cache of estimates.
+        reloads: ended sessions, for reloads of their pages.
+        parameters: initial ones of a session.
+        surveys: of whole recordings, computed in the background.
     """
 
     library: Library
@@ -66,19 +66,19 @@ class Session:
 
     Args:
         client: the browser client.
-        shared: with all other sessions.
+        shared: parts common to all sessions.
     """
 
     def __init__(self, client: viser.ClientHandle, shared: Shared) -> None:
         self._client = client
         self._shared = shared
         self._queue = CommandQueue()
-        self._said = ""
+        self._last_error = ""
         self._thread = threading.Thread(target=self._run, name="session", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
-        """End the session; its thread gives back what it holds."""
+        """End the session; its thread then releases its resources."""
         self._queue.close()
 
     def join(self, timeout: float) -> None:
@@ -94,8 +94,10 @@ class Session:
             token, saved = self._resume()
             labels = [entry.label for entry in entries]
             if saved and saved.label not in labels:
-                self._say(f"The recording {saved.label} is not among those that are listed here.")
-                saved = None  # nor do its parameters suit another one
+                self._report(
+                    f"The recording {saved.label} is not among those that are listed here."
+                )
+                saved = None  # its parameters were chosen for that recording
             # Before there is a page, so that what a person does there comes after it.
             self._queue.post(OpenFirst((*([saved.label] if saved else []), *labels)))
             if saved:
@@ -103,16 +105,16 @@ class Session:
             workbench, page = self._build(entries, saved)
             try:
                 self._serve(workbench, page)
-                if leaving := workbench.saved():
-                    self._shared.reloads.keep(token, leaving)
+                if ended := workbench.saved():
+                    self._shared.reloads.keep(token, ended)
             finally:
                 workbench.close()
         except Exception:
-            # A client that leaves while its page is being built takes everything with it.
+            # Usually a client that disconnected while its page was being built.
             _LOG.warning("A session could not begin.", exc_info=True)
 
     def _resume(self) -> tuple[str, SavedSession | None]:
-        """A token for this session, and the session to resume: a link's, or the one left here."""
+        """Token of this session, and the session to resume from a link or a reload, if any."""
         token, saved = str(uuid4()), None
         try:
             if link := take_link(self._client, timeout=2.0):
@@ -120,9 +122,9 @@ class Session:
             else:
                 saved = self._shared.reloads.take(take_token(self._client, timeout=2.0))
         except (RuntimeError, TimeoutError):
-            pass  # a browser that stores nothing begins anew
+            pass  # a browser without storage starts a new session
         except InputError as error:
-            self._say(str(error))
+            self._report(str(error))
         keep_token(self._client, token)
         return token, saved
 
@@ -139,7 +141,7 @@ class Session:
             entries,
             Tuning(parameters, shared.parameters),
             settings,
-            FollowedSurvey(shared.surveys, lambda news: post(ReceiveSurveyUpdate(news))),
+            FollowedSurvey(shared.surveys, lambda update: post(ReceiveSurveyUpdate(update))),
             LiveTimeline(shared.estimates, shared.surveys),
             Tasks(lambda event: post(ReceiveTaskEvents((event,)))),
         )
@@ -157,45 +159,45 @@ class Session:
             fine.append(self._try(lambda: page.announce(workbench.status())))
             fine.append(self._try(lambda: self._draw(workbench, page)))
             if all(fine):
-                self._said = ""
+                self._last_error = ""
 
     def _apply(self, command: Command, workbench: Workbench, page: Page) -> None:
         command.apply(workbench)
-        # What follows a command in the queue is meant for the recording that it has opened.
+        # Later commands in the queue refer to the recording that this one opens.
         while workbench.opening.label is not None:
             page.announce(workbench.status())
             workbench.open_next()
 
     def _draw(self, workbench: Workbench, page: Page) -> None:
         if self._queue.has(OpenRecording):
-            return  # nothing is computed for a recording that is about to be left
+            return  # the current recording is about to be closed
         try:
             workbench.draw()
         finally:
-            # Where a frame cannot be drawn, its number is shown all the more.
+            # Also if the frame cannot be drawn: the page then shows its number.
             snapshot = workbench.snapshot(seeking=self._queue.has(Move))
             if snapshot is not None:
                 page.show(snapshot)
 
     def _try(self, action: Callable[[], None]) -> bool:
-        """Do something; what goes wrong is told to the person, and the session goes on."""
+        """Run an action, report its error to the user, and return whether it succeeded."""
         try:
             action()
         except UserError as error:
-            self._say(str(error))
+            self._report(str(error))
         except Exception as error:
             sentence = f"Something unexpected went wrong ({type(error).__name__}: {error})."
-            if self._say(sentence):
+            if self._report(sentence):
                 _LOG.exception("An unexpected error.")
         else:
             return True
         return False
 
-    def _say(self, sentence: str) -> bool:
-        """Tell the person, unless it was said last; whether it was told."""
-        # A recording that is broken at every frame complains once, not at every frame.
-        if sentence == self._said:
+    def _report(self, sentence: str) -> bool:
+        """Show an error to the user unless it repeats the last one; return whether it was shown."""
+        # A recording broken at every frame must not show an error per frame.
+        if sentence == self._last_error:
             return False
-        self._said = sentence
+        self._last_error = sentence
         self._client.add_notification("Tofscope", sentence, color="red", auto_close_seconds=15)
         return True

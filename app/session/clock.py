@@ -1,4 +1,4 @@
-"""Playback of a recording in its own time, or faster, or slower."""
+"""Playback of a recording at its own speed or a multiple of it."""
 
 import bisect
 from collections.abc import Iterable
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
-"""Speeds that are offered, as multiples of the recording's own."""
+"""Selectable speeds, as multiples of the recording's own."""
 
 
 @dataclass(frozen=True)
@@ -16,10 +16,10 @@ class Playback:
     """Range, speed and loop of playback.
 
     Attributes:
-        first: frame of the range that is played.
-        last: frame of the range that is played, included.
+        first: first frame of the range.
+        last: last frame of the range, inclusive.
         speed: multiple of the recording's own speed.
-        loop: whether the range is played again and again.
+        loop: whether the range repeats.
     """
 
     first: int
@@ -29,42 +29,44 @@ class Playback:
 
 
 class PlaybackClock:
-    """Plays a recording's stamps against a steady clock, dropping what it has no time for.
+    """Plays a recording's stamps against a monotonic clock, dropping frames that are late.
 
     Args:
         stamps: (K,) seconds, strictly increasing.
-        like: playback whose speed and loop are taken over.
+        like: playback whose speed and loop are kept.
     """
 
     def __init__(self, stamps: Iterable[float], like: Playback | None = None) -> None:
         self._stamps = [float(stamp) for stamp in stamps]
         whole = Playback(0, len(self._stamps) - 1)
         self.playback = replace(like, first=whole.first, last=whole.last) if like else whole
-        # Seconds for which the last frame stays before a loop begins again.
+        # Seconds to show the last frame before a loop restarts.
         self._period = float(np.median(np.diff(self._stamps))) if whole.last > 0 else 0.1
-        self._start: tuple[float, float] | None = None  # a stamp, and the time when it was due
+        self._start: tuple[float, float] | None = (
+            None  # a stamp, and the clock time at which it was due
+        )
         self._end = whole.last
 
     @property
     def playing(self) -> bool:
-        """Whether time goes on."""
+        """Whether playback is running."""
         return self._start is not None
 
     def play(self, frame: int, now: float) -> None:
-        """Let time go on from `frame`, which is due at `now` (seconds of any steady clock)."""
+        """Start playback at `frame`, due at `now` (seconds of a monotonic clock)."""
         self._start = (self._stamps[frame], now)
-        # A person who goes past the range wants to see what is there.
+        # Playback started beyond the range runs to the end of the recording.
         beyond = frame > self.playback.last
         self._end = len(self._stamps) - 1 if beyond else self.playback.last
 
     def pause(self) -> None:
-        """Let time stand still."""
+        """Stop playback."""
         self._start = None
 
     def change(self, values: dict[str, Any], frame: int, now: float) -> None:
-        """Play otherwise, {field of `Playback`: value}, while `frame` is shown.
+        """Change fields of `Playback`, {field: value}, while `frame` is shown.
 
-        A range is kept within the recording.
+        The range is clipped to the recording.
         """
         start = (self._stamp(now), now) if self.playing else None
         playback = replace(self.playback, **values)
@@ -73,11 +75,11 @@ class PlaybackClock:
         self.playback = replace(playback, first=first, last=last)
         if start:
             self.play(frame, now)
-            self._start = start  # a slider's many changes must not hold time up
+            self._start = start  # keeps its pace during a slider's many changes
 
     def advance(self, now: float) -> int:
-        """The frame that is due at `now`, from which time goes on or not; only while playing."""
-        # A float's rounding must not make the frame late that `wait` waited for.
+        """The frame due at `now`; stops at the end unless looping. Only while playing."""
+        # Tolerance, so that rounding does not delay the frame that `wait` waited for.
         stamp = self._stamp(now) + 1e-6
         loop = self.playback.loop
         if stamp < self._stamps[self._end] + (self._period if loop else 0.0):
@@ -89,7 +91,7 @@ class PlaybackClock:
         return self.playback.first
 
     def wait(self, frame: int, now: float) -> float | None:
-        """Seconds from `now` until a frame after `frame` is due, None where none will be."""
+        """Seconds from `now` until the frame after `frame` is due, None if none will be."""
         if not self.playing or (frame >= self._end and not self.playback.loop):
             return None
         due = self._stamps[self._end] + self._period

@@ -1,4 +1,4 @@
-"""Commands: what callbacks of the page post, and the session's thread applies."""
+"""Commands that callbacks of the page post, and the session's thread applies."""
 
 from dataclasses import dataclass
 from typing import Protocol, Self
@@ -7,27 +7,27 @@ from app.session.workbench import Workbench
 
 
 class Command(Protocol):
-    """Frozen data and an intent on a session's state; its class is its kind.
+    """Frozen description of a change to a session's state; its class is its kind.
 
-    It never touches a widget, the page or the client: what the page is to show, it reads from the
-    next snapshot, and what is to be handed to the browser once goes into the workbench's outbox.
+    It never touches a widget, the page or the client: the page shows the next snapshot, and
+    one-time messages to the browser go into the workbench's outbox.
     """
 
     def merged_with(self, earlier: Self) -> Self:
-        """The one command that stands for an `earlier` one, not yet applied, and this one."""
+        """Merge an `earlier` pending command and this one into one."""
         ...
 
     def apply(self, workbench: Workbench) -> None:
-        """Change the state, in the session's thread; what it raises is told to the person."""
+        """Change the state, in the session's thread; errors are shown to the user."""
         ...
 
 
 @dataclass(frozen=True)
 class LatestWins:
-    """Command of which the latest alone counts."""
+    """Command of which only the latest counts."""
 
     def merged_with(self, earlier: Self) -> Self:
-        """The latest of the two."""
+        """Return this command, the later one."""
         return self
 
 
@@ -43,11 +43,11 @@ class Repeated:
     """Command that counts as often as it was posted.
 
     Attributes:
-        times: it was.
+        times: number of posts.
     """
 
     times: int = 1
 
     def merged_with(self, earlier: Self) -> Self:
-        """All the times."""
+        """Add up the posts."""
         return type(self)(earlier.times + self.times)

@@ -1,4 +1,4 @@
-"""Commands that several panels post, or the session itself; a panel defines its own beside it."""
+"""Commands posted by several panels or by the session; panels define their own beside them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ class OpenRecording(LatestWins):
     label: str
 
     def apply(self, workbench: Workbench) -> None:
-        """Want it, unless it is open already."""
+        """Request it, unless it is open already."""
         opened = workbench.opened
         if opened is None or opened.entry.label != self.label:
             workbench.opening.request([self.label])
@@ -32,43 +32,42 @@ class OpenFirst(LatestWins):
     labels: tuple[str, ...]
 
     def apply(self, workbench: Workbench) -> None:
-        """Want them."""
+        """Request them."""
         workbench.opening.request(self.labels)
 
 
 @dataclass(frozen=True)
 class Restore(LatestWins):
-    """Bring back a saved session in the recording that was opened for it."""
+    """Restore a saved session, once its recording was opened."""
 
     saved: SavedSession
 
     def apply(self, workbench: Workbench) -> None:
-        """Bring it back; in a recording that was opened instead there is nothing to restore."""
+        """Restore it, unless another recording was opened instead."""
         if workbench.opened is not None and workbench.opened.entry.label == self.saved.label:
             workbench.restore(self.saved)
 
 
 @dataclass(frozen=True)
 class Move:
-    """Go to a frame and then some frames on: one kind of command, so that both keep their order.
+    """Seek and step; one kind of command, so that merging keeps their order.
 
     Attributes:
-        start: frame to go to first, None for the one that is shown; a number outside the
-            recording means its first or last one.
-        steps: frames to go from there, back where it is negative.
+        start: frame to seek to, clipped to the recording; None for the current one.
+        steps: frames to step from there, negative for backwards.
     """
 
     start: int | None = None
     steps: int = 0
 
     def merged_with(self, earlier: Self) -> Self:
-        """Both; where this one names a frame, it does not matter what was before."""
+        """This one if it seeks, else the earlier one with more steps."""
         if self.start is not None:
             return self
         return type(self)(earlier.start, earlier.steps + self.steps)
 
     def apply(self, workbench: Workbench) -> None:
-        """Go there."""
+        """Seek and step."""
         if self.start is not None:
             workbench.seek(self.start)
         if self.steps:
@@ -76,18 +75,18 @@ class Move:
 
 
 def seek(frame: int) -> Move:
-    """Command to show this frame; a number outside the recording means its first or last one."""
+    """Command to seek to a frame, clipped to the recording."""
     return Move(start=frame)
 
 
 def step(frames: int) -> Move:
-    """Command to go this many frames on, or back where it is negative."""
+    """Command to step this many frames, negative for backwards."""
     return Move(steps=frames)
 
 
 @dataclass(frozen=True)
 class TogglePlay(Repeated):
-    """Play where it stands still, and the other way round, this many times."""
+    """Toggle between play and pause, as often as posted."""
 
     def apply(self, workbench: Workbench) -> None:
         """Play or pause."""
@@ -97,12 +96,11 @@ class TogglePlay(Repeated):
 
 @dataclass(frozen=True)
 class ChangeParameters:
-    """Estimate with values of controls from now on.
+    """Change parameters to the values of controls.
 
     Attributes:
         values: {parameter: value}.
-        at_end: those of them that are at an end of their slider, where the browser may have put
-            them by itself.
+        at_end: names of those at an end of their slider, possibly clamped by the browser.
     """
 
     values: Mapping[str, Any]
@@ -114,28 +112,28 @@ class ChangeParameters:
         return type(self)({**earlier.values, **self.values}, at_end)
 
     def apply(self, workbench: Workbench) -> None:
-        """Take the values, or refuse them."""
+        """Apply or refuse the values."""
         workbench.tuning.enter(self.values, self.at_end, monotonic())
 
 
 @dataclass(frozen=True)
 class ResetParameters:
-    """Put the parameters of these names back to what the app was started with."""
+    """Reset the parameters of these names to the values that the app was started with."""
 
     names: frozenset[str]
 
     def merged_with(self, earlier: Self) -> Self:
-        """Both of them."""
+        """The names of both."""
         return type(self)(earlier.names | self.names)
 
     def apply(self, workbench: Workbench) -> None:
-        """Put them back."""
+        """Reset them."""
         workbench.tuning.reset(self.names)
 
 
 @dataclass(frozen=True)
 class ChangeView:
-    """Draw with these settings, {name of the setting: value}, from now on."""
+    """Change settings of the drawing, {name: value}."""
 
     values: Mapping[str, Any]
 
@@ -144,32 +142,32 @@ class ChangeView:
         return type(self)({**earlier.values, **self.values})
 
     def apply(self, workbench: Workbench) -> None:
-        """Draw so."""
+        """Redraw with them."""
         workbench.change_view(self.values)
 
 
 @dataclass(frozen=True)
 class ReceiveSurveyUpdate(Background, LatestWins):
-    """Take note that the background has filled more of a survey."""
+    """Receive an update of the background survey."""
 
-    news: SurveyUpdate
+    update: SurveyUpdate
 
     def apply(self, workbench: Workbench) -> None:
-        """Take note of it."""
-        workbench.survey.receive(self.news)
+        """Pass it to the session's survey."""
+        workbench.survey.receive(self.update)
 
 
 @dataclass(frozen=True)
 class ReceiveTaskEvents(Background):
-    """Take note of how far background tasks are, and hand out their results."""
+    """Receive progress and results of background tasks."""
 
     events: tuple[TaskEvent, ...]
 
     def merged_with(self, earlier: Self) -> Self:
-        """All of them, in their order."""
+        """All events, in order."""
         return type(self)(earlier.events + self.events)
 
     def apply(self, workbench: Workbench) -> None:
-        """Take note of them."""
+        """Update the tasks, and put their results into the outbox."""
         for event in self.events:
             workbench.outbox += workbench.tasks.receive(event)

@@ -1,4 +1,4 @@
-"""The survey of what a session shows, which the background fills."""
+"""Survey of a session's recording, followed while the background fills it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,57 +11,59 @@ from estimator import Parameters
 
 @dataclass(frozen=True)
 class SurveyUpdate:
-    """Survey that has come further.
+    """Progress of a survey.
 
     Attributes:
-        asked: recording and parameters that it was asked for with.
+        requested: recording and parameters of the request.
         survey: as far as it is filled.
     """
 
-    asked: tuple[Opened, Parameters]
+    requested: tuple[Opened, Parameters]
     survey: Survey
 
 
 class FollowedSurvey:
-    """Asks the background for one survey at a time; used by the session's thread alone.
+    """Requests one survey at a time; used by the session's thread alone.
 
     Args:
         surveys: computes whole recordings in the background.
-        tell: takes the news, from the background's thread; `receive` is to be called with them by
-            the session's thread.
+        notify: called with updates by the background thread; the session's thread must pass them
+            to `receive`.
 
     Attributes:
-        survey: as far as it is filled, None before the first numbers are there.
-        revision: grows with all news, since a survey is filled in place.
+        survey: as far as it is filled, None before the first update.
+        revision: number of updates, since a survey is filled in place.
     """
 
-    def __init__(self, surveys: Surveys, tell: Callable[[SurveyUpdate], None]) -> None:
+    def __init__(self, surveys: Surveys, notify: Callable[[SurveyUpdate], None]) -> None:
         self._surveys = surveys
-        self._tell = tell
-        self._asked: tuple[Opened, Parameters] | None = None
+        self._notify = notify
+        self._requested: tuple[Opened, Parameters] | None = None
         self.survey: Survey | None = None
         self.revision = 0
 
     def follow(self, opened: Opened, parameters: Parameters) -> None:
-        """Ask for the survey of a recording with these parameters, unless it is followed already.
+        """Request the survey of a recording with these parameters, unless it is followed already.
 
         Args:
-            opened: stays open until another survey is followed, or none.
+            opened: must stay open until the next `follow` or `stop`.
             parameters: of the estimates.
         """
-        asked = (opened, parameters)
-        if asked == self._asked:
+        requested = (opened, parameters)
+        if requested == self._requested:
             return
-        self._asked, self.survey, tell = asked, None, self._tell
-        self._surveys.request(self, *asked, lambda survey: tell(SurveyUpdate(asked, survey)))
+        self._requested, self.survey, notify = requested, None, self._notify
+        self._surveys.request(
+            self, *requested, lambda survey: notify(SurveyUpdate(requested, survey))
+        )
 
-    def receive(self, news: SurveyUpdate) -> None:
-        """Take note of news, unless something else was asked for meanwhile."""
-        if news.asked is self._asked:
-            self.survey = news.survey
+    def receive(self, update: SurveyUpdate) -> None:
+        """Apply an update, unless another survey was requested meanwhile."""
+        if update.requested is self._requested:
+            self.survey = update.survey
             self.revision += 1
 
     def stop(self) -> None:
-        """Follow none."""
+        """Stop following."""
         self._surveys.cancel(self)
-        self._asked = self.survey = None
+        self._requested = self.survey = None

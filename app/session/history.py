@@ -1,4 +1,4 @@
-"""Changes of parameters that can be undone and redone."""
+"""Undo and redo of parameter changes."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -6,26 +6,26 @@ from typing import Any
 from app.analysis.comparison import A, B, Comparison
 from estimator import Parameters, changed, values_of
 
-_DRAG = 1.0  # seconds; changes of the same parameter closer together than this are one change
+_DRAG = 1.0  # seconds; closer changes of the same parameter count as one
 _SIZE = 200
 _NOTHING: tuple[frozenset[str], float] = (frozenset(), -_DRAG)
 
 
 class ParameterHistory:
-    """Changes, one entry per drag of a slider; each is {name: the value to go back to}."""
+    """Undo and redo stacks of {name: value to restore}, one entry per drag of a slider."""
 
     def __init__(self) -> None:
         self._undo: list[Mapping[str, Any]] = []
         self._redo: list[Mapping[str, Any]] = []
-        self._last = _NOTHING  # names that changed last, and when
+        self._last = _NOTHING  # names of the last change, and its time
 
     def note(self, before: Parameters, after: Parameters, now: float | None) -> None:
-        """Remember a change.
+        """Record a change.
 
         Args:
             before: the parameters before it.
             after: the parameters after it.
-            now: seconds of any steady clock; None for what is no part of a drag, such as a reset.
+            now: seconds of a monotonic clock; None for a change outside drags, such as a reset.
         """
         change = _differences(before, after)
         if not change:
@@ -40,11 +40,11 @@ class ParameterHistory:
         self._last = _NOTHING if now is None else (names, now)
 
     def undo(self, parameters: Parameters) -> Parameters | None:
-        """The parameters before the last change, None where there is none."""
+        """The parameters before the last change, None without one."""
         return self._go(parameters, self._undo, self._redo)
 
     def redo(self, parameters: Parameters) -> Parameters | None:
-        """The parameters after the change that was undone last, None where there is none."""
+        """The parameters after the change undone last, None without one."""
         return self._go(parameters, self._redo, self._undo)
 
     def _go(
@@ -54,18 +54,18 @@ class ParameterHistory:
             return None
         after = changed(parameters, stack.pop())
         other.append(_differences(parameters, after))
-        self._last = _NOTHING  # what follows is a change of its own
+        self._last = _NOTHING  # the next change starts an entry of its own
         return after
 
 
 class ParameterHistories:
-    """The changes of A, and those of B."""
+    """Histories of A and of B."""
 
     def __init__(self) -> None:
         self._sides = {A: ParameterHistory(), B: ParameterHistory()}
 
     def of(self, comparison: Comparison | None) -> ParameterHistory:
-        """Those of the parameters that are edited."""
+        """History of the edited side."""
         return self._sides[comparison.edited if comparison else A]
 
     def compare(
@@ -75,13 +75,13 @@ class ParameterHistories:
         after: Comparison | None,
         edited: Parameters,
     ) -> None:
-        """Remember what another comparison changes: a copy replaces parameters, a switch does not.
+        """Record a change of comparison: a copy replaces parameters, a switch does not.
 
         Args:
-            before: the comparison before it.
-            edited_before: the parameters that were edited in it.
-            after: the comparison after it; without one, nothing of B is remembered.
-            edited: the parameters that are edited now.
+            before: the comparison before the change.
+            edited_before: the edited parameters before the change.
+            after: the comparison after the change; None clears the history of B.
+            edited: the edited parameters after the change.
         """
         if after is None:
             self._sides[B] = ParameterHistory()

@@ -1,4 +1,4 @@
-"""Saved sessions, which reloads of a page bring back, and links to them."""
+"""Saved sessions, for reloads of the page and for links."""
 
 import base64
 import json
@@ -23,17 +23,17 @@ _DAMAGED = "The link is damaged; copy it once more."
 
 @dataclass(frozen=True)
 class SavedSession:
-    """Recording, frame and all that was set, as a session shows them.
+    """Recording, frame and settings of a session.
 
     Attributes:
         label: of the recording in the list.
         frame: k.
         parameters: of the estimate.
-        camera: of the scene, None where it is not known.
+        camera: of the scene, None for the default view.
         settings: of the drawing.
-        comparison: with a second set of parameters, None where there is none.
-        playback: of the recording, None for all of it at its own speed.
-        playing: whether time goes on.
+        comparison: with a second set of parameters, None without one.
+        playback: of the recording, None for the defaults.
+        playing: whether playback is running.
     """
 
     label: str
@@ -46,9 +46,9 @@ class SavedSession:
     playing: bool = False
 
     def token(self) -> str:
-        """Recording, frame, parameters and camera in letters that an address can hold.
+        """Encode recording, frame, parameters and camera as a URL-safe token.
 
-        View settings, comparison and playback stay with the person who has set them.
+        View settings, comparison and playback are left out, as personal to the sender.
         """
         defaults = to_nested(Parameters())
         content: dict[str, Any] = {"recording": self.label, "frame": self.frame}
@@ -65,10 +65,10 @@ class SavedSession:
 
 
 def from_token(token: str) -> SavedSession:
-    """Saved session that a token of a link stands for, whatever it is.
+    """Decode the token of a link, which may contain anything.
 
     Raises:
-        InputError: it stands for none, or its parameters cannot be used.
+        InputError: the token is invalid, or its parameters are.
     """
     if len(token) > _LONGEST:
         raise InputError(_DAMAGED)
@@ -76,7 +76,7 @@ def from_token(token: str) -> SavedSession:
         text = base64.b64decode(token + "=" * (-len(token) % 4), altchars=b"-_", validate=True)
         link = _Link.model_validate_json(text)
         camera = link.camera and _camera(link.camera)
-    except ValueError as error:  # those of base64 and pydantic, too
+    except ValueError as error:  # includes those of base64 and pydantic
         raise InputError(_DAMAGED) from error
     parameters = from_text(json.dumps(link.parameters), "The link")
     return SavedSession(link.recording, link.frame, parameters, camera)
@@ -87,7 +87,7 @@ _Radians = Annotated[float, Field(gt=0.01, lt=3.0)]
 
 
 class _Link(BaseModel):
-    """Content of a token; anything may have been written into one."""
+    """Content of a token, validated strictly."""
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
@@ -98,7 +98,7 @@ class _Link(BaseModel):
 
 
 def _camera(numbers: tuple[float, float, float, float, float, float, float]) -> Camera:
-    """A camera from position, look_at and field of view; ValueError where it looks nowhere."""
+    """Camera from position, look_at and field of view; ValueError if the first two coincide."""
     x, y, z, a, b, c, fov = numbers
     if math.dist((x, y, z), (a, b, c)) <= 1e-4:
         raise ValueError(numbers)

@@ -1,4 +1,4 @@
-"""Opening of recordings: those that are wanted are tried one after the other."""
+"""Opening of requested recordings, tried in turn until one opens."""
 
 from collections.abc import Iterable, Sequence
 
@@ -7,7 +7,7 @@ from app.errors import InputError, UserError
 
 
 class Opening:
-    """Labels of recordings that are to be tried until one of them opens.
+    """Requested recordings, tried in turn until one opens.
 
     Args:
         library: opens recordings.
@@ -22,16 +22,16 @@ class Opening:
 
     @property
     def label(self) -> str | None:
-        """Label of the recording that is tried next, None where none is wanted."""
+        """Label of the recording to try next, None without a request."""
         return self._requested[0] if self._requested else None
 
     def request(self, labels: Iterable[str]) -> None:
-        """Try these in their order; those that are not in the list are ignored."""
-        # Only what the server listed is ever opened, whatever a browser sends.
+        """Request recordings to try, in order; unlisted ones are ignored."""
+        # A browser may send anything; only listed recordings are opened.
         self._requested = [label for label in labels if label in self._entries]
 
     def try_next(self) -> Opened | None:
-        """Open the next one; None where it cannot be opened, which `complain` tells in the end."""
+        """Open the next one, or return None and keep the error for `raise_failure`."""
         label = self._requested.pop(0)
         try:
             opened = self._library.open(self._entries[label])
@@ -45,7 +45,7 @@ class Opening:
         return opened
 
     def raise_failure(self) -> None:
-        """Raise InputError about those that could not be opened, once none is left to try."""
+        """Raise InputError on those that could not be opened, once none is left to try."""
         if self._requested or not self._failures:
             return
         first, *others = self._failures

@@ -1,4 +1,4 @@
-"""Messages that a session hands to the browser exactly once."""
+"""Messages that a session sends to the browser exactly once."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -12,10 +12,10 @@ class Notice:
 
     Attributes:
         title: in bold.
-        sentence: below it.
-        colour: None for the page's own.
-        seconds: after which it goes by itself.
-        replaces: whether the last one of its title goes when it comes.
+        sentence: below the title.
+        colour: None for the page's default.
+        seconds: after which it closes.
+        replaces: whether it replaces the last one of the same title.
     """
 
     title: str
@@ -27,7 +27,7 @@ class Notice:
 
 @dataclass(frozen=True)
 class Download:
-    """File for the browser's downloads.
+    """File for the browser to download.
 
     Attributes:
         name: of the file.
@@ -40,7 +40,7 @@ class Download:
 
 @dataclass(frozen=True)
 class LinkToCopy:
-    """Link for the clipboard: the page's own address with this token."""
+    """Link for the clipboard: the page's address with this token."""
 
     token: str
 

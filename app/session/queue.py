@@ -1,4 +1,4 @@
-"""Queue of a session's commands: callbacks post, one thread takes."""
+"""Queue of a session's commands, from callbacks to the session's thread."""
 
 import threading
 
@@ -8,9 +8,9 @@ from app.session.command import Background, Command
 class CommandQueue:
     """Thread-safe queue of pending commands, in the order in which a person meant them.
 
-    However many commands of a kind follow each other, they are merged into one, so that a slider's
-    do not pile up. They are not merged past a command of another kind, which may mean something
-    else after them than before; commands of the background depend on no others.
+    Consecutive commands of one kind are merged, so that the queue stays short while a slider is
+    dragged. They are not merged past a command of another kind, which may depend on the order;
+    background commands do not.
     """
 
     def __init__(self) -> None:
@@ -37,10 +37,10 @@ class CommandQueue:
         """Take all commands, in their order.
 
         Args:
-            timeout: seconds to wait for one at most; None waits as long as it takes.
+            timeout: maximum wait in seconds, None for no limit.
 
         Returns:
-            The commands, none after the timeout, or None where the queue is closed.
+            The commands, empty after the timeout, or None once the queue is closed.
         """
         with self._changed:
             self._changed.wait_for(lambda: self._pending or self._closed, timeout)
@@ -50,7 +50,7 @@ class CommandQueue:
             return commands
 
     def close(self) -> None:
-        """End every wait, now and later."""
+        """Close the queue, and end all waits."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()

@@ -1,4 +1,4 @@
-"""Sessions that clients have left, kept for a reload of their page."""
+"""Ended sessions, kept for a reload of their pages."""
 
 import threading
 from collections import OrderedDict
@@ -7,25 +7,25 @@ from app.session.links import SavedSession
 
 
 class Reloads:
-    """Saved sessions under tokens that browsers hold; the oldest are forgotten.
+    """Bounded store of saved sessions by the tokens of browser tabs.
 
-    A tab keeps nothing but its token, so nothing that it sends has to be trusted, and the copy of
-    a tab, which finds the token of a session that goes on, begins anew.
+    A tab stores only its token, so no state from a browser needs to be trusted. A duplicated tab
+    has the token of a running session, which is not stored, and starts a new one.
     """
 
     def __init__(self, size: int = 64) -> None:
         self._size = size
         self._lock = threading.Lock()
-        self._left: OrderedDict[str, SavedSession] = OrderedDict()
+        self._saved: OrderedDict[str, SavedSession] = OrderedDict()
 
-    def keep(self, token: str, left: SavedSession) -> None:
-        """Keep an ended session."""
+    def keep(self, token: str, saved: SavedSession) -> None:
+        """Store an ended session; the oldest is dropped when the store is full."""
         with self._lock:
-            self._left[token] = left
-            while len(self._left) > self._size:
-                self._left.popitem(last=False)
+            self._saved[token] = saved
+            while len(self._saved) > self._size:
+                self._saved.popitem(last=False)
 
     def take(self, token: str | None) -> SavedSession | None:
-        """Hand out the session that was left under a token, once; None where there is none."""
+        """Remove and return the session of a token, None without one."""
         with self._lock:
-            return self._left.pop(token, None) if token is not None else None
+            return self._saved.pop(token, None) if token is not None else None

@@ -1,4 +1,4 @@
-"""Snapshot of a session: all that its page shows, immutable, in two steps."""
+"""Immutable snapshots of a session's state, for its page."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,11 +20,11 @@ from estimator import Parameters
 
 @dataclass(frozen=True)
 class TimeSeek:
-    """Frame that a time has led to; another one each time that it is time_seek.
+    """Seek to a time typed by the user; each seek is a new object.
 
     Attributes:
-        seconds: from the start, as they were typed.
-        frame: nearest to them.
+        seconds: from the start, as typed.
+        frame: nearest to that time.
     """
 
     seconds: float
@@ -33,18 +33,18 @@ class TimeSeek:
 
 @dataclass(frozen=True, kw_only=True)
 class Status:
-    """State that the page shows at once, before anything is opened or estimated.
+    """State that is shown at once, before opening or estimating.
 
     Attributes:
-        opening: label of the recording that is being opened, None where none is.
-        opened: the recording, None while none is open.
+        opening: label of the recording being opened, None without one.
+        opened: the open recording, None without one.
         parameters: of the estimate.
-        parameters_revision: grows whenever parameters were set by something else than their own
-            controls, which are then to show all of them anew.
-        refusals: {parameter: entry that is not taken}, the last one at the end.
-        preset_use: the last use of a preset, None where none was used.
-        tasks: that run in the background.
-        outbox: messages to hand to the browser, exactly once.
+        parameters_revision: incremented when parameters change other than by their controls, which
+            must then be updated.
+        refusals: {parameter: its refused entry}, the latest last.
+        preset_use: the last use of a preset, None before the first.
+        tasks: running in the background.
+        outbox: messages to send to the browser, exactly once.
     """
 
     opening: str | None
@@ -59,25 +59,25 @@ class Status:
 
 @dataclass(frozen=True, kw_only=True)
 class Snapshot(Status):
-    """State of a session that shows a recording, once its frame was drawn.
+    """State of a session with an open recording, after drawing a frame.
 
     Attributes:
-        opened: the recording.
+        opened: the open recording.
         frame: k.
-        comparison: with other parameters, None where there is none.
+        comparison: with other parameters, None without one.
         settings: of the drawing.
-        legend: meaning of its colours.
-        pair: of the frame, None where it could not be drawn.
-        other: the pair with those other parameters, None unless its estimate is known.
-        picked: index of the picked cluster in the pair's flow, None where none is.
-        picked_in_scene: number of clusters that were picked by a click in the scene so far.
-        playing: whether time goes on.
+        legend: of the drawing.
+        pair: of the frame, None if it could not be drawn.
+        other: the pair with the other parameters, None unless estimated.
+        picked: index of the picked cluster in the pair's flow, None without one.
+        picked_in_scene: number of clusters picked by clicks in the scene so far.
+        playing: whether playback is running.
         playback: of the recording.
-        timeline: of the recording, as far as it is known.
-        seeking: whether a person is moving the frame slider, which is then left to them.
-        time_seek: the last time that a person typed, None where none was.
-        survey: with these parameters, as far as it is filled; None before its first numbers.
-        survey_revision: grows whenever the survey has come further: it is filled in place.
+        timeline: of the recording, as far as known.
+        seeking: whether the user is moving the frame slider, which must then not be set.
+        time_seek: the last seek to a typed time, None before the first.
+        survey: with these parameters, as far as filled; None before its first update.
+        survey_revision: number of updates of the survey, which is filled in place.
     """
 
     opened: Opened

@@ -1,4 +1,4 @@
-"""Background tasks of a session, such as a file that takes minutes to make."""
+"""Background tasks of a session, such as exports that take minutes."""
 
 import logging
 import threading
@@ -10,24 +10,24 @@ from app.errors import UserError
 from app.session.outbox import Message, Notice
 
 _LOG = logging.getLogger(__name__)
-_TELL = 0.3  # seconds between two reports that are passed on
+_REPORT_INTERVAL = 0.3  # minimum seconds between two progress events
 
 Report = Callable[[str], None]
 Job = Callable[[Report], Sequence[Message]]
-"""Work of a task: is given `report(text)`, which raises `TaskEndedError` once it is to end."""
+"""Work of a task. Its argument `report(text)` raises `TaskEndedError` when the task must end."""
 
 
 class TaskEndedError(Exception):
-    """The client that a task works for has gone."""
+    """The task must end, since its client has disconnected."""
 
 
 @dataclass(frozen=True)
 class TaskState:
-    """Task that is running.
+    """A running task.
 
     Attributes:
-        title: one task of a title runs at a time.
-        text: how far it is.
+        title: unique among running tasks.
+        text: its progress.
     """
 
     title: str
@@ -36,11 +36,11 @@ class TaskState:
 
 @dataclass(frozen=True)
 class TaskEvent:
-    """News of a task, from its own thread.
+    """Progress or end of a task, posted by its thread.
 
     Attributes:
         title: of the task.
-        text: how far it is, None where it has ended.
+        text: its progress, None once it has ended.
         messages: its results.
     """
 
@@ -50,21 +50,21 @@ class TaskEvent:
 
 
 class Tasks:
-    """Jobs in threads of their own; used by the session's thread alone.
+    """Jobs, each in its own thread; used by the session's thread alone.
 
     Args:
-        tell: takes the news of all tasks, from their threads; `receive` is to be called with them
-            by the session's thread.
+        post: called with events by the tasks' threads; the session's thread must pass them to
+            `receive`.
     """
 
-    def __init__(self, tell: Callable[[TaskEvent], None]) -> None:
-        self._tell = tell
+    def __init__(self, post: Callable[[TaskEvent], None]) -> None:
+        self._post = post
         self._running: dict[str, TaskState] = {}
         self._ended = threading.Event()
 
     @property
     def states(self) -> tuple[TaskState, ...]:
-        """All tasks that are running."""
+        """All running tasks."""
         return tuple(self._running.values())
 
     def running(self, title: str) -> bool:
@@ -75,16 +75,16 @@ class Tasks:
         """Start a task.
 
         Args:
-            title: that no running task has.
-            text: to begin with.
-            job: its work; what goes wrong in it becomes a notice.
+            title: unlike that of any running task.
+            text: initial progress.
+            job: its work; an error in it becomes a notice.
         """
         self._running[title] = TaskState(title, text)
         # Not a daemon: it must not be cut off inside of Open3D when the program ends.
         threading.Thread(target=self._run, args=(title, job), name=title.lower()).start()
 
     def receive(self, event: TaskEvent) -> tuple[Message, ...]:
-        """Take note of news, and hand out the results that came with them."""
+        """Update the state from an event, and return the event's results."""
         if event.text is None:
             del self._running[event.title]
         else:
@@ -96,15 +96,15 @@ class Tasks:
         self._ended.set()
 
     def _run(self, title: str, job: Job) -> None:
-        told = time.monotonic()
+        reported = time.monotonic()
 
         def report(text: str) -> None:
-            nonlocal told
+            nonlocal reported
             if self._ended.is_set():
                 raise TaskEndedError
-            if time.monotonic() > told + _TELL:
-                told = time.monotonic()
-                self._tell(TaskEvent(title, text))
+            if time.monotonic() > reported + _REPORT_INTERVAL:
+                reported = time.monotonic()
+                self._post(TaskEvent(title, text))
 
         try:
             messages = tuple(job(report))
@@ -114,9 +114,9 @@ class Tasks:
             messages = (_failure(title, str(error)),)
         except Exception as error:
             _LOG.exception("An unexpected error in the task %s.", title)
-            said = f"It could not be made ({type(error).__name__}: {error})."
-            messages = (_failure(title, said),)
-        self._tell(TaskEvent(title, None, messages))
+            sentence = f"It could not be made ({type(error).__name__}: {error})."
+            messages = (_failure(title, sentence),)
+        self._post(TaskEvent(title, None, messages))
 
 
 def _failure(title: str, sentence: str) -> Notice:

@@ -1,4 +1,4 @@
-"""Parameters that a person edits, those they are compared with, and entries that are refused."""
+"""Edited parameters with comparison, history and refused entries."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -11,12 +11,12 @@ from estimator import ParameterError, Parameters, changed, values_of
 
 @dataclass(frozen=True)
 class Refusal:
-    """Entry of a value that is not taken.
+    """Refused entry of a parameter's value.
 
     Attributes:
         reason: a sentence.
-        put_back: whether the browser has replaced it since, by the end of a slider: the control is
-            to show again what is in use, and the reason stays readable for a while.
+        put_back: whether the browser has since clamped it to an end of the slider: the control must
+            then show the value in use, and the reason stays readable for a while.
     """
 
     reason: str
@@ -27,14 +27,14 @@ class Tuning:
     """Parameters, their comparison and their history.
 
     Args:
-        parameters: to begin with.
-        defaults: to go back to.
+        parameters: initial ones.
+        defaults: of a reset.
 
     Attributes:
-        parameters: that are edited.
-        comparison: with a second set of parameters, None where there is none.
-        refusals: {parameter: its refused entry}, the last one at the end.
-        revision: grows whenever parameters were set by something else than their own controls.
+        parameters: the edited ones.
+        comparison: with a second set of parameters, None without one.
+        refusals: {parameter: its refused entry}, the latest last.
+        revision: incremented when parameters change other than by their controls.
     """
 
     def __init__(self, parameters: Parameters, defaults: Parameters) -> None:
@@ -46,15 +46,15 @@ class Tuning:
         self._histories = ParameterHistories()
 
     def enter(self, values: Mapping[str, Any], at_end: Iterable[str], now: float) -> None:
-        """Take values of controls, {parameter: value}, or refuse all of them.
+        """Apply values of controls, {parameter: value}, or refuse all of them.
 
-        When a slider's field loses the focus, the browser puts what was refused to the nearest
-        value that the slider offers. That is no entry of the person's: nothing is changed by it.
+        When a slider's field loses the focus, the browser clamps a refused value to the slider's
+        range. The clamped value is not the user's entry and is not applied.
 
         Args:
-            values: that were entered.
-            at_end: those of them that are at an end of their slider.
-            now: seconds of any steady clock.
+            values: as entered.
+            at_end: names of those at an end of their slider.
+            now: seconds of a monotonic clock.
         """
         for name in at_end:
             refusal = self.refusals.get(name)
@@ -75,17 +75,17 @@ class Tuning:
         self.refusals.clear()
 
     def set(self, parameters: Parameters) -> None:
-        """Take other parameters, as one change."""
+        """Replace the parameters, as one change."""
         self._histories.of(self.comparison).note(self.parameters, parameters, None)
         self._show(parameters)
 
     def reset(self, names: Iterable[str]) -> None:
-        """Put parameters back to the defaults."""
+        """Reset parameters to the defaults."""
         defaults = values_of(self._defaults)
         self.set(changed(self.parameters, {name: defaults[name] for name in names}))
 
     def undo(self, changes: int) -> None:
-        """Undo this many changes, or redo where it is negative."""
+        """Undo this many changes, or redo them if negative."""
         history, parameters = self._histories.of(self.comparison), self.parameters
         go = history.undo if changes > 0 else history.redo
         for _ in range(abs(changes)):
@@ -93,7 +93,7 @@ class Tuning:
         self._show(parameters)
 
     def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
-        """Compare otherwise, or not at all, and edit these parameters."""
+        """Set the comparison, None for none, and the edited parameters."""
         self._histories.compare(self.comparison, self.parameters, comparison, edited)
         self.comparison = comparison
         self._show(edited)

@@ -1,4 +1,4 @@
-"""State of one session: everything that a client has open, set and drawn; used by one thread."""
+"""Mutable state of one session, used by the session's thread alone."""
 
 import time
 from collections.abc import Mapping, Sequence
@@ -32,33 +32,33 @@ from estimator import Parameters
 
 
 class Workbench:
-    """State of a session and the scene that it draws; commands change it, `snapshot` reads it.
+    """State of a session and its scene; commands change it, snapshots are taken of it.
 
     Args:
         client: the browser client, on which the scene is drawn.
         library: opens recordings.
-        estimates: computes and remembers.
-        entries: the recordings that may be opened.
-        tuning: parameters to begin with.
-        settings: of the drawing, to begin with.
-        survey: of the recording that is open.
-        timeline: of the recording that is open.
-        tasks: that run in the background.
+        estimates: computes and caches flows.
+        entries: the listed recordings.
+        tuning: parameters, initially.
+        settings: of the drawing, initially.
+        survey: of the open recording.
+        timeline: of the open recording.
+        tasks: in the background.
 
     Attributes:
-        opening: recordings that are to be opened.
-        opened: the recording, None while none is open.
+        opening: recordings requested to be opened.
+        opened: the open recording, None without one.
         frame: k.
         clock: of the playback.
-        time_seek: the last time that a person typed, None where none was.
+        time_seek: the last seek to a typed time, None before the first.
         tuning: the parameters.
-        settings: of the drawing; `change_view` changes them.
+        settings: of the drawing; changed by `change_view`.
         scene: in the client's browser.
-        framing: puts the scene's camera to views.
-        renderer: takes pictures of the scene.
-        pair: that is drawn, None where none is.
-        preset_use: the last use of a preset, None where none was used.
-        outbox: messages for the browser, taken by the next status or snapshot.
+        framing: moves the scene's camera to views.
+        renderer: renders pictures of the scene.
+        pair: that is drawn, None without one.
+        preset_use: the last use of a preset, None before the first.
+        outbox: messages for the browser, emptied by the next status or snapshot.
     """
 
     def __init__(
@@ -95,10 +95,10 @@ class Workbench:
         self._picked_in_scene = 0
 
     def open_next(self) -> None:
-        """Open the recording that is wanted next, in place of the one that is open.
+        """Open the next requested recording in place of the open one.
 
         Raises:
-            InputError: it cannot be opened and is the last that is wanted, or others before it.
+            InputError: requested recordings could not be opened, and none is left to try.
         """
         opened = self.opening.try_next()
         if opened is not None:
@@ -106,7 +106,7 @@ class Workbench:
         self.opening.raise_failure()
 
     def draw(self) -> None:
-        """Bring the scene up to date, with whatever frame is due by now."""
+        """Draw the frame that is due, if anything has changed."""
         if self.opened is None:
             return
         if self.clock.playing:
@@ -120,7 +120,7 @@ class Workbench:
             self.survey.follow(self.opened, parameters)
 
     def seek(self, frame: int) -> None:
-        """Go to a frame; a number outside the recording means its first or last one."""
+        """Go to a frame, clipped to the recording."""
         if self.opened is None:
             return
         self.frame = min(max(frame, 0), len(self.opened.recording) - 1)
@@ -128,7 +128,7 @@ class Workbench:
             self.clock.play(self.frame, time.monotonic())
 
     def toggle_play(self) -> None:
-        """Play where it stands still, and the other way round."""
+        """Play if paused, else pause."""
         if self.opened is None:
             return
         if self.clock.playing:
@@ -152,14 +152,14 @@ class Workbench:
             self.scene.mark(self.pair, cluster_of(self.pair, self._picked))
 
     def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> None:
-        """Pick the cluster under a ray (3,), (3,) of the drawing, or none if it misses all."""
+        """Pick the cluster hit by a ray, origin and direction (3,) in the drawing, or none."""
         if self.pair is not None:
             ray = (self.scene.in_fixed_frame(np.array(v)) for v in (origin, direction))
             self.pick(cluster_at(self.pair, *ray))
             self._picked_in_scene += self._picked is not None
 
     def saved(self) -> SavedSession | None:
-        """All that a reload of the page brings back, None where nothing is open."""
+        """State that a reload of the page restores, None without an open recording."""
         if self.opened is None:
             return None
         return SavedSession(
@@ -174,9 +174,9 @@ class Workbench:
         )
 
     def restore(self, saved: SavedSession) -> None:
-        """Show what was saved of the recording that is open and not drawn yet.
+        """Restore a saved session, after opening its recording and before drawing.
 
-        Its parameters and settings are those that the session has begun with.
+        Its parameters and settings were already given to the session at its start.
         """
         self.seek(saved.frame)
         self.tuning.comparison = saved.comparison
@@ -188,17 +188,17 @@ class Workbench:
             self.toggle_play()
 
     def status(self) -> Status:
-        """State that the page shows before anything is opened or drawn; it takes the outbox."""
+        """State before opening or drawing; empties the outbox."""
         return Status(opened=self.opened, **self._status())
 
     def snapshot(self, *, seeking: bool) -> Snapshot | None:
-        """State that the page shows after `draw`; it takes the outbox.
+        """State after `draw`; empties the outbox.
 
         Args:
-            seeking: whether a person is moving the frame slider.
+            seeking: whether the user is moving the frame slider.
 
         Returns:
-            The snapshot, None where no recording is open.
+            The snapshot, None without an open recording.
         """
         if self.opened is None:
             return None
@@ -223,16 +223,16 @@ class Workbench:
         )
 
     def close(self) -> None:
-        """End all tasks, and give back the recording."""
+        """End all tasks, and release the recording."""
         self.tasks.end()
         if self.opened is not None:
-            self._leave(self.opened)
+            self._release(self.opened)
             self.opened = None
 
     def _begin(self, opened: Opened) -> None:
         before, self.opened = self.opened, opened
         if before is not None:
-            self._leave(before)
+            self._release(before)
         recording = opened.recording
         self.clock = PlaybackClock(recording.stamps, like=self.clock.playback)
         self.frame = first_frame_with_flow(opened, self.tuning.parameters, self.estimates)
@@ -245,7 +245,7 @@ class Workbench:
             for warning in recording.warnings
         ]
 
-    def _leave(self, opened: Opened) -> None:
+    def _release(self, opened: Opened) -> None:
         self.survey.stop()
         self.library.release(opened.entry)
 

@@ -64,7 +64,7 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
 def _begin_worker(method_files: tuple[str, ...]) -> None:
     """Initialise a worker process: load methods, and ignore Ctrl-C.
 
-    Methods must be registered before parameters of theirs are unpickled. A terminal sends Ctrl-C
+    Methods must be registered before their parameters are unpickled. A terminal sends Ctrl-C
     to all processes; the parent handles it.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -18,9 +18,9 @@ class Row:
 
     Attributes:
         source: the recording.
-        scenario: None where the recording does not say.
-        speed: m/s, None where the recording does not say.
-        trial: None where the recording does not say.
+        scenario: None where unknown.
+        speed: m/s, None where unknown.
+        trial: None where unknown.
         parameters: of the estimate.
         metrics: {field of `Metrics`: value}, empty without truth.
         diagnosis: see `Result`.

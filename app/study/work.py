@@ -52,7 +52,7 @@ class Simulated:
 
     @property
     def name(self) -> str:
-        """As in names of files."""
+        """Name of the recording in file names."""
         return f"{self.scenario}_{self.speed:g}_{self.trial}"
 
 
@@ -68,7 +68,7 @@ class Recorded:
 
     @property
     def name(self) -> str:
-        """As in names of files."""
+        """Name of the recording in file names."""
         return self.path.stem
 
 

@@ -41,7 +41,7 @@ def test_a_task_runs_beside_the_session_and_hands_out_its_results():
 
 
 def test_reports_are_told_now_and_then(monkeypatch):
-    monkeypatch.setattr("app.session.tasks._TELL", 0.0)
+    monkeypatch.setattr("app.session.tasks._REPORT_INTERVAL", 0.0)
     bench = Bench()
 
     def job(report):
