@@ -1,4 +1,4 @@
-"""A rig: which sensors a robot wears, and where. Read from a TOML file."""
+"""Rig: the sensors of a robot with their extrinsics, read from a TOML file."""
 
 import math
 import tomllib
@@ -17,7 +17,7 @@ _MOST_SENSORS = 1000
 
 
 class RigError(Exception):
-    """A rig file that cannot be used; the sentence names the file and the key."""
+    """Rig file that cannot be used; the message names the file and the key."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ class Rig:
     """The sensors of a robot.
 
     Attributes:
-        name: what to call it on screen.
-        model: the type of all its sensors.
+        name: shown on screen.
+        model: of all its sensors.
         sensors: in the order of the file, rings first.
     """
 
@@ -52,7 +52,7 @@ class Rig:
     sensors: tuple[Sensor, ...]
 
     def check_links(self, links: tuple[str, ...], robot: str) -> None:
-        """Raise RigError where a sensor is fixed to a link that the robot has not."""
+        """Raise RigError where a sensor is fixed to a link that the robot does not have."""
         for sensor in self.sensors:
             if sensor.link not in links:
                 raise RigError(
@@ -76,14 +76,14 @@ def load_rig(path: str | Path | None = None) -> Rig:
 
 
 def parse_rig(content: bytes, where: str) -> Rig:
-    """Read a rig from the bytes of a TOML file; `where` they are from, for the sentences.
+    """Read a rig from the bytes of a TOML file; `where` names their origin in messages.
 
     Raises:
-        RigError: as of `load_rig`.
+        RigError: as in `load_rig`.
     """
     try:
         table = tomllib.loads(content.decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # also a number of too many digits
+    except (ValueError, RecursionError) as error:  # ValueError: also a number of too many digits
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
         return _rig(Table(table))
@@ -111,7 +111,7 @@ def _rig(table: Table) -> Rig:
 
 
 def _check_names(names: Sequence[str]) -> None:
-    """Names are told apart in topics and frames, where only letters and digits are the same."""
+    """Raise TableError where names are empty or equal as topics and frames spell them."""
     seen: dict[str, str] = {}
     for name in names:
         plain = plain_name(name)
@@ -128,7 +128,7 @@ def _check_names(names: Sequence[str]) -> None:
 
 
 def plain_name(text: str) -> str:
-    """A name, topic or frame by which sensors are matched: small letters, digits, underscores."""
+    """Normalise a name, topic or frame for matching: lower case, digits, single underscores."""
     return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
 
 
@@ -170,7 +170,7 @@ def _ring(table: Table) -> list[Sensor]:
 
 
 def _single(table: Table) -> Sensor:
-    name, link, ring = table.text("name"), table.text("link"), table.text("ring", otherwise="")
+    name, link, ring = table.text("name"), table.text("link"), table.text("ring", default="")
     position = table.vector("position_m")
     forward = unit(table.vector("forward", nonzero=True))
     up = table.direction_across("up", forward)
@@ -183,7 +183,7 @@ def look(
 ) -> NDArray[np.float64]:
     """Pose (4, 4) of an optical frame at `position`, z along `forward`, y opposite to `up`.
 
-    `forward` and `up` are unit vectors at a right angle.
+    `forward` and `up` are perpendicular unit vectors.
     """
     pose: NDArray[np.float64] = np.eye(4)
     pose[:3, 0] = np.cross(forward, up)
