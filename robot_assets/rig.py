@@ -83,7 +83,7 @@ def parse_rig(content: bytes, where: str) -> Rig:
     """
     try:
         table = tomllib.loads(content.decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # ValueError: also a number of too many digits
+    except (ValueError, RecursionError) as error:  # also a number of too many digits
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
         return _rig(Table(table))
@@ -111,7 +111,7 @@ def _rig(table: Table) -> Rig:
 
 
 def _check_names(names: Sequence[str]) -> None:
-    """Raise TableError where names are empty or equal as topics and frames spell them."""
+    """Names are told apart in topics and frames, where only letters and digits are the same."""
     seen: dict[str, str] = {}
     for name in names:
         plain = plain_name(name)
@@ -128,7 +128,7 @@ def _check_names(names: Sequence[str]) -> None:
 
 
 def plain_name(text: str) -> str:
-    """Normalise a name, topic or frame for matching: lower case, digits, single underscores."""
+    """A name, topic or frame by which sensors are matched: small letters, digits, underscores."""
     return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
 
 
@@ -170,7 +170,7 @@ def _ring(table: Table) -> list[Sensor]:
 
 
 def _single(table: Table) -> Sensor:
-    name, link, ring = table.text("name"), table.text("link"), table.text("ring", default="")
+    name, link, ring = table.text("name"), table.text("link"), table.text("ring", otherwise="")
     position = table.vector("position_m")
     forward = unit(table.vector("forward", nonzero=True))
     up = table.direction_across("up", forward)

@@ -1,4 +1,4 @@
-"""Writing a rig as the text of a rig file."""
+"""The text of a rig file that gives a rig again, however that was made."""
 
 import json
 import math
@@ -11,7 +11,7 @@ from robot_assets.sensor_model import SensorModel
 
 
 def rig_text(rig: Rig) -> str:
-    """Rig as TOML for `load_rig`, rings as single sensors; poses are kept to within rounding."""
+    """A rig as TOML for `load_rig`, each sensor by itself; poses come back to within rounding."""
     parts = [f"name = {_text(rig.name)}\n", _sensor_model(rig.model)]
     return "\n".join([*parts, *(_sensor(sensor) for sensor in rig.sensors)])
 
@@ -50,7 +50,7 @@ def _sensor(sensor: Sensor) -> str:
 
 
 def _text(value: str) -> str:
-    # JSON escapes all that TOML requires, except DEL.
+    # JSON escapes what TOML must have escaped, but for one sign.
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
@@ -59,12 +59,12 @@ def _truth(value: bool) -> str:
 
 
 def _degrees(angle: float) -> str:
-    """Angle in rad as degrees, rounded where that is the same angle."""
+    """An angle in rad as degrees, as a person wrote it where that is the same angle."""
     exact = math.degrees(angle)
     short = round(exact, 9)
     return repr(short if math.radians(short) == angle else exact)
 
 
 def _vector(values: NDArray[np.float64]) -> str:
-    # Adding zero turns -0.0 into 0.0.
+    # Adding zero makes a zero of a negative zero.
     return str([value + 0.0 for value in values.tolist()])

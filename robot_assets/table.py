@@ -1,4 +1,4 @@
-"""Checked reading of a TOML table, key by key."""
+"""Reading a TOML table key by key, with one sentence for whatever is wrong."""
 
 from typing import Any
 
@@ -9,15 +9,15 @@ _LARGEST = 1e6
 
 
 class TableError(Exception):
-    """Missing or unknown key, or wrong value; the message names the key."""
+    """A key is missing, unknown, or holds a wrong value; the sentence names it."""
 
 
 class Table:
-    """TOML table that records which of its keys were read, to find unknown ones.
+    """A TOML table that remembers which of its keys were read.
 
     Args:
-        content: the table from tomllib.
-        path: its path in the file, for messages.
+        content: the table as tomllib gives it.
+        path: where it stands in the file, for the sentences.
     """
 
     def __init__(self, content: dict[str, Any], path: str = "") -> None:
@@ -25,11 +25,11 @@ class Table:
         self._path = path
         self._read: set[str] = set()
 
-    def text(self, key: str, default: str | None = None) -> str:
-        """A string that is not empty; `default` where the key is missing."""
-        if default is not None and key not in self._content:
+    def text(self, key: str, otherwise: str | None = None) -> str:
+        """A string that is not empty; `otherwise` where the key is not there."""
+        if otherwise is not None and key not in self._content:
             self._read.add(key)
-            return default
+            return otherwise
         value = self._get(key)
         if not isinstance(value, str) or not value:
             raise self._wrong(key, "a text", value)
@@ -64,7 +64,7 @@ class Table:
         return float(value)
 
     def number_or_two(self, key: str, low: float, high: float) -> tuple[float, float | None]:
-        """One or two numbers within bounds; the second is None where there is one."""
+        """A number within bounds, or two of them; the second is None where there is one."""
         value = self._get(key)
         several = value if isinstance(value, list) else [value]
         inside = all(_is_number(one) and low <= one <= high for one in several)
@@ -83,7 +83,7 @@ class Table:
         return vector
 
     def direction_across(self, key: str, axis: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Three numbers, made a unit vector perpendicular to the unit vector `axis`."""
+        """Three numbers, made a unit vector at a right angle to the unit vector `axis`."""
         vector = self.vector(key, nonzero=True)
         across = vector - (vector @ axis) * axis
         if np.linalg.norm(across) < 1e-6 * np.linalg.norm(vector):
@@ -93,14 +93,14 @@ class Table:
         return across / np.linalg.norm(across)
 
     def table(self, key: str) -> "Table":
-        """A nested table."""
+        """A table inside this one."""
         value = self._get(key)
         if not isinstance(value, dict):
             raise self._wrong(key, "a table", value)
         return Table(value, self._name(key))
 
     def tables(self, key: str) -> list["Table"]:
-        """The tables of an array of tables; empty where the key is missing."""
+        """The tables of an array of tables, none where the key is not there."""
         self._read.add(key)
         value = self._content.get(key, [])
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
@@ -108,12 +108,12 @@ class Table:
         return [Table(item, f"{self._name(key)}[{i}]") for i, item in enumerate(value)]
 
     def finish(self) -> None:
-        """Raise TableError where the table has keys that were not read."""
+        """Raise TableError where the table has keys that nobody read."""
         if unknown := sorted(set(self._content) - self._read):
             known = ", ".join(sorted(self._read))
             raise TableError(f"{self._name(unknown[0])} is not a known key; known are {known}.")
 
-    def _get(self, key: str) -> Any:  # noqa: ANN401 (any TOML value)
+    def _get(self, key: str) -> Any:  # noqa: ANN401 (whatever TOML holds)
         self._read.add(key)
         if key not in self._content:
             raise TableError(f"{self._name(key)} is missing.")
@@ -129,5 +129,5 @@ class Table:
 def _is_number(value: object) -> bool:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
-    # No measure of a rig is this large; squares of much larger numbers overflow.
+    # Nothing that a rig measures comes near this; squares of larger numbers overflow.
     return -_LARGEST <= value <= _LARGEST
