@@ -1,4 +1,4 @@
-"""What the robot is: its description and kinematics, its sensors, and its own body's shadow."""
+"""Robot model: description, kinematics, sensor rigs, ray casting, and the self filter."""
 
 from robot_assets.errors import RobotError
 from robot_assets.joint_match import JointMatch

@@ -1,5 +1,5 @@
-"""What can be wrong with a robot."""
+"""Errors of robot descriptions."""
 
 
 class RobotError(Exception):
-    """A robot description, or a mesh of it, that cannot be used; one sentence says why."""
+    """Robot description, or a mesh of it, that cannot be used."""

@@ -1,4 +1,4 @@
-"""Recorded joint names matched to a robot's, under whatever prefix they were recorded."""
+"""Matching of recorded joint names to a robot's, whose prefix may differ."""
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
@@ -6,17 +6,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class JointMatch:
-    """Fit of a set of recorded joint names to a robot.
+    """Recorded joint names matched to a robot's joints.
 
     Attributes:
         joints: {recorded name: the robot's joint}.
         missing: the robot's actuated joints that no recorded name fits, in the robot's order.
-        ambiguous: the robot's joints of which it is not clear what recorded name means them; they
-            match none.
-        prefix: of the recorded names that are taken for this robot, such as "left/fr3_"; None
-            where it is not clear which.
-        rivals: where several prefixes have all that it takes to be this robot, the recorded name
-            of one joint under each of them; else empty.
+        ambiguous: the robot's joints that several recorded names fit; they match none.
+        prefix: of the recorded names of this robot, such as "left/fr3_"; None where ambiguous.
+        rivals: where several prefixes have all needed joints, the recorded name of one joint for
+            each such prefix; else empty.
     """
 
     joints: dict[str, str]
@@ -33,23 +31,23 @@ def match_joints(
     own_prefix: str,
     needed: Sequence[str],
 ) -> JointMatch:
-    """Match recorded joint names to a robot's by what follows the prefix.
+    """Match recorded joint names to a robot's by the part after the prefix.
 
-    Names of one prefix belong together: where several names fit a joint, the one whose prefix has
-    all joints that the robot needs is it, so that a gripper's or a mobile base's `wheel_joint1`
-    does not hide the arm's.
+    Names with the same prefix belong together. Where several names fit a joint, the one whose
+    prefix has all needed joints is chosen, so that `wheel_joint1` of a gripper or a mobile base
+    does not hide the arm's joint.
 
     Args:
         recorded: names in a recording.
         joints: the robot's actuated joints.
-        others: its other joints, which mimic one of them or are fixed; what fits these is no
-            candidate for the actuated ones.
+        others: its mimic and fixed joints; a recorded name that fits one of these is no candidate
+            for an actuated joint.
         own_prefix: of the robot's own names, "" without one.
-        needed: those of `joints` without which a prefix is not this robot.
+        needed: those of `joints` that a prefix must have to be this robot.
     """
     cores = {name: name.removeprefix(own_prefix) for name in [*joints, *others]}
     by_prefix = _by_prefix(recorded, cores, joints)
-    # One joint is no evidence of a robot: that of a gripper fits as well.
+    # A single joint is no evidence: a gripper's would fit as well.
     complete = [
         p for p, names in by_prefix.items() if len(needed) > 1 and set(needed) <= set(names)
     ]
@@ -64,7 +62,7 @@ def match_joints(
             for p in (prefix, own_prefix)
             if p in by_prefix and joint in by_prefix[p]
         ]
-        # A rival's joint is part of another robot, even where this one lacks it.
+        # A rival's joint belongs to another robot, even where this one has no such joint.
         free = [n[joint] for p, n in by_prefix.items() if p not in rivals and joint in n]
         if preferred or len(free) == 1:
             taken[(preferred or free)[0]] = joint
@@ -83,7 +81,7 @@ def match_joints(
 def _by_prefix(
     recorded: Iterable[str], cores: dict[str, str], wanted: Collection[str]
 ) -> dict[str, dict[str, str]]:
-    """{prefix: {joint: recorded name}} of the wanted joints, by the longest core that fits."""
+    """{prefix: {joint: recorded name}} of the wanted joints; the longest core that fits wins."""
     found: dict[str, dict[str, str]] = {}
     for name in recorded:
         fitting = [joint for joint, core in cores.items() if _ends_with(name, core)]
@@ -93,13 +91,13 @@ def _by_prefix(
 
 
 def _chosen(prefixes: list[str], own: str) -> str | None:
-    """The robot's own prefix where it is among them, else the only one."""
+    """The robot's own prefix where it is among them, else the only one, else None."""
     if own in prefixes:
         return own
     return prefixes[0] if len(prefixes) == 1 else None
 
 
 def _ends_with(recorded: str, core: str) -> bool:
-    """Whether a name is `core`, with or without a prefix that ends where a word does."""
+    """Whether a name is `core`, alone or after a prefix that ends at a word boundary."""
     head = recorded.removesuffix(core)
     return recorded == core or (head != recorded and not head[-1].isalnum())

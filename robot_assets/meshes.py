@@ -1,4 +1,4 @@
-"""The meshes of a robot: where a URDF's files are, and what they hold."""
+"""Meshes of a robot: paths of a URDF's mesh files, and reading them."""
 
 from pathlib import Path
 from typing import Any
@@ -32,16 +32,16 @@ def link_meshes(urdf: yourdfpy.URDF, kind: str) -> dict[str, trimesh.Trimesh]:
 
 
 def panda_urdf_path() -> Path:
-    """Where the example-robot-data package keeps the Panda's URDF."""
+    """Path of the Panda's URDF in the example-robot-data package."""
     return _example_robot_data() / "robots" / "panda_description" / "urdf" / "panda.urdf"
 
 
 def resolve_mesh(name: str, folder: Path | None = None) -> str:
-    """Turn a mesh's name in a URDF into a path; a name that leads nowhere is returned as it is."""
+    """Path of a mesh named in a URDF; the name itself where no such file is found."""
     if name.startswith(_EXAMPLE_ROBOT_DATA):
         return str(_example_robot_data() / name.removeprefix(_EXAMPLE_ROBOT_DATA))
     if name.startswith("package://") and folder is not None:
-        # A package's meshes lie beside its urdf folder: look for them from there upwards.
+        # A ROS package keeps its meshes beside its urdf folder.
         inside = name.removeprefix("package://")
         below = inside.split("/", 1)[-1]
         for parent in [folder, *folder.parents]:
@@ -54,7 +54,7 @@ def resolve_mesh(name: str, folder: Path | None = None) -> str:
 
 
 def _example_robot_data() -> Path:
-    # The package is a bare data wheel: it has no module to ask, only this place in site-packages.
+    # The package is a data wheel without a module to import.
     from importlib.metadata import distribution
 
     share = distribution("example-robot-data").locate_file("cmeel.prefix/share/example-robot-data")
@@ -86,7 +86,7 @@ def _part_mesh(part: Any, urdf: yourdfpy.URDF) -> trimesh.Trimesh | None:  # noq
 def _read_mesh(path: Path) -> trimesh.Trimesh:
     try:
         mesh = _coloured(trimesh.load(path))
-    except Exception as error:  # trimesh raises whatever the reader of that format meets
+    except Exception as error:  # trimesh passes on errors of each format's reader
         raise RobotError(f"The mesh {path} cannot be read: {error}.") from error
     if len(mesh.faces) == 0:
         raise RobotError(f"The mesh {path} has no triangles.")
@@ -94,7 +94,7 @@ def _read_mesh(path: Path) -> trimesh.Trimesh:
 
 
 def _coloured(loaded: Any) -> trimesh.Trimesh:  # noqa: ANN401 (trimesh.load gives a mesh or a scene)
-    """Flatten a loaded file into one mesh whose materials have become vertex colours."""
+    """Merge a loaded file into one mesh, with materials as vertex colours."""
     parts: list[trimesh.Trimesh] = []
     for mesh in [loaded] if isinstance(loaded, trimesh.Trimesh) else loaded.dump():
         material: Any = getattr(mesh.visual, "material", mesh.visual)

@@ -1,4 +1,4 @@
-"""Where rays meet a triangle mesh: trimesh with Embree behind it."""
+"""Ray casting against a triangle mesh, by trimesh with Embree."""
 
 import numpy as np
 import trimesh
@@ -10,10 +10,10 @@ _MAX_SURFACES = 8
 
 
 class RayCaster:
-    """Casts rays against one mesh, from outside: surfaces seen from behind are passed through.
+    """Ray caster against one mesh that ignores back faces.
 
     A sensor mounted on a link may sit inside the link's coarse collision mesh; its rays must leave
-    that mesh unhindered and still meet every other one.
+    that mesh and still hit every other one.
 
     Args:
         mesh: triangles with outward normals, metres.
@@ -34,8 +34,8 @@ class RayCaster:
             directions: (N, 3) unit vectors.
 
         Returns:
-            Distance along each ray in metres, inf where it meets nothing, and the index of the
-            triangle that it meets, -1 likewise: (N,) each.
+            Distance along each ray in metres, inf where it hits nothing, and the index of the
+            triangle that it hits, -1 for none: (N,) each.
         """
         distance = np.full(len(origins), np.inf)
         triangle = np.full(len(origins), -1, dtype=np.int64)

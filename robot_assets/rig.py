@@ -1,4 +1,4 @@
-"""A rig: which sensors a robot wears, and where. Read from a TOML file."""
+"""Rig: the sensors of a robot with their extrinsics, read from a TOML file."""
 
 import math
 import tomllib
@@ -18,7 +18,7 @@ _LARGEST = 1_000_000  # bytes; a thousand sensors need a third of it
 
 
 class RigError(Exception):
-    """A rig file that cannot be used; the sentence names the file and the key."""
+    """Rig file that cannot be used; the message names the file and the key."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ class Rig:
     """The sensors of a robot.
 
     Attributes:
-        name: what to call it on screen.
-        model: the type of all its sensors.
+        name: shown on screen.
+        model: of all its sensors.
         sensors: in the order of the file, rings first.
     """
 
@@ -53,7 +53,7 @@ class Rig:
     sensors: tuple[Sensor, ...]
 
     def check_links(self, links: tuple[str, ...], robot: str) -> None:
-        """Raise RigError where a sensor is fixed to a link that the robot has not."""
+        """Raise RigError where a sensor is fixed to a link that the robot does not have."""
         for sensor in self.sensors:
             if sensor.link not in links:
                 raise RigError(
@@ -83,10 +83,10 @@ def load_rig(path: str | Path | None = None) -> Rig:
 
 
 def parse_rig(content: bytes, where: str) -> Rig:
-    """Read a rig from the bytes of a TOML file; `where` they are from, for the sentences.
+    """Read a rig from the bytes of a TOML file; `where` names their origin in messages.
 
     Raises:
-        RigError: as of `load_rig`.
+        RigError: as in `load_rig`.
     """
     try:
         table = tomllib.loads(content.decode("utf-8"))
@@ -152,7 +152,7 @@ def look(
 ) -> NDArray[np.float64]:
     """Pose (4, 4) of an optical frame at `position`, z along `forward`, y opposite to `up`.
 
-    `forward` and `up` are unit vectors at a right angle.
+    `forward` and `up` are perpendicular unit vectors.
     """
     pose: NDArray[np.float64] = np.eye(4)
     pose[:3, 0] = np.cross(forward, up)

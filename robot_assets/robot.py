@@ -1,4 +1,4 @@
-"""A robot: its links, joints, meshes, and where its links are for given joint positions."""
+"""Robot from a URDF: links, joints, meshes, and forward kinematics."""
 
 import re
 import threading
@@ -19,16 +19,16 @@ from robot_assets.joint_match import JointMatch, match_joints
 from robot_assets.meshes import link_meshes, panda_urdf_path, resolve_mesh
 
 Transform = NDArray[np.float64]
-_TURNING = ("revolute", "continuous")
+_ROTARY = ("revolute", "continuous")
 
 
 class Robot:
-    """A robot from a URDF.
+    """Robot from a URDF.
 
     Args:
-        urdf: a loaded description; `load_robot` makes one from a file or a text.
-        name: what to call it on screen.
-        text: the description as it was given.
+        urdf: a loaded description; `load_robot` loads one from a file or a text.
+        name: shown on screen.
+        text: the unchanged description.
     """
 
     def __init__(self, urdf: yourdfpy.URDF, name: str, text: str) -> None:
@@ -49,23 +49,23 @@ class Robot:
         }
 
     def match_joints(self, recorded: Iterable[str]) -> JointMatch:
-        """Match recorded joint names to this robot's, exactly or by what follows the prefix.
+        """Match recorded joint names to this robot's, exactly or by the part after the prefix.
 
         `panda_joint1`, `fer_joint1`, `fr3_joint1` and `/left/panda_joint1` all mean the joint
-        whose name without the robot's own prefix is `joint1`. A robot is there under a prefix
-        where that has all joints that turn; fingers may be missing.
+        whose name without the robot's own prefix is `joint1`. A prefix is this robot's if it has
+        all rotary joints; fingers may be missing.
         """
-        turning = [name for name in self.joint_names if self._urdf.joint_map[name].type in _TURNING]
+        rotary = [name for name in self.joint_names if self._urdf.joint_map[name].type in _ROTARY]
         return match_joints(
             recorded,
             self.joint_names,
             [name for name, _ in self._joints if name not in self.joint_names],
             self._prefix,
-            turning or self.joint_names,
+            rotary or self.joint_names,
         )
 
     def link_names(self, prefix: str) -> dict[str, str]:
-        """{link: its name with `prefix` in the place of the robot's own} of every link."""
+        """{link: its name with `prefix` instead of the robot's own} of every link."""
         own = self._prefix
         return {
             link: prefix + link.removeprefix(own) if link.startswith(own) else link
@@ -73,21 +73,21 @@ class Robot:
         }
 
     def links_placed_by(self, joints: Collection[str]) -> frozenset[str]:
-        """Links whose pose is known where these joints' positions are.
+        """Links whose pose is known when the positions of these joints are.
 
-        A link below a joint that turns by an unknown angle could be anywhere; one below a joint
-        that slides, such as a finger, is at most its short way off.
+        An unknown rotary joint leaves the links behind it unknown. An unknown prismatic joint,
+        such as a finger's, does not: the error is at most its short travel.
         """
         driver = {name: joint.mimic.joint if joint.mimic else name for name, joint in self._joints}
         unknown = {
             str(joint.child)
             for name, joint in self._joints
-            if joint.type in _TURNING and driver[name] not in joints
+            if joint.type in _ROTARY and driver[name] not in joints
         }
         return frozenset(link for link in self.links if unknown.isdisjoint(self._chain(link)))
 
     def outside_limits(self, positions: Mapping[str, float], tolerance: float = 1e-3) -> list[str]:
-        """Say, in a sentence each, which joints are beyond their limits by over `tolerance`."""
+        """Messages about joints beyond their limits by more than `tolerance` (rad or m)."""
         return [
             f"{name} is at {positions[name]:.3f}, outside its limits {low:.3f} to {high:.3f}."
             for name, (low, high) in self.joint_limits.items()
@@ -98,7 +98,7 @@ class Robot:
         """Forward kinematics.
 
         Args:
-            positions: {joint: rad or m}; joints not given stand at 0, or at the limit nearest to 0.
+            positions: {joint: rad or m}; missing joints are at 0, or at their limit nearest to 0.
 
         Returns:
             {link: T_base_link (4, 4)} of every link.
@@ -112,33 +112,33 @@ class Robot:
 
     @cached_property
     def parents(self) -> dict[str, str]:
-        """{link: the link that its joint hangs on} of every link but the base."""
+        """{link: its parent link} of every link but the base."""
         return {str(joint.child): str(joint.parent) for joint in self._urdf.robot.joints}
 
     @cached_property
     def fixed_links(self) -> frozenset[str]:
-        """Links that never move relative to their parent."""
+        """Links fixed to their parent."""
         return frozenset(str(j.child) for j in self._urdf.robot.joints if j.type == "fixed")
 
     @cached_property
     def visual_meshes(self) -> dict[str, trimesh.Trimesh]:
-        """{link: one mesh in the link's frame, metres, coloured per vertex} of links that show.
+        """{link: one mesh in the link's frame, metres, coloured per vertex} of visible links.
 
-        Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
+        Missing files are left out, see `missing_meshes`; a broken one raises RobotError.
         """
         return link_meshes(self._urdf, "visuals")
 
     @cached_property
     def collision_meshes(self) -> dict[str, trimesh.Trimesh]:
-        """{link: one mesh in the link's frame, metres} of links that have a body.
+        """{link: one mesh in the link's frame, metres} of links with collision geometry.
 
-        Meshes that are not there are left out, see `missing_meshes`; a broken one is a RobotError.
+        Missing files are left out, see `missing_meshes`; a broken one raises RobotError.
         """
         return link_meshes(self._urdf, "collisions")
 
     @cached_property
     def missing_meshes(self) -> tuple[str, ...]:
-        """Mesh files that the description names and that could not be found."""
+        """Mesh files named in the description that do not exist."""
         return tuple(
             geometry.mesh.filename
             for link in self._urdf.link_map.values()
@@ -152,7 +152,7 @@ class Robot:
         return [(str(name), joint) for name, joint in self._urdf.joint_map.items()]
 
     def _chain(self, link: str) -> list[str]:
-        """A link, its parent and so on, down to the base."""
+        """A link and its ancestors, down to the base."""
         chain = [link]
         while chain[-1] in self.parents:
             chain.append(self.parents[chain[-1]])
@@ -160,7 +160,7 @@ class Robot:
 
     @cached_property
     def _prefix(self) -> str:
-        # What is left must still say that it is a joint: "joint_" is no robot's name.
+        # "joint_" is no prefix: the rest of the name must still contain "joint".
         if not all("joint" in name.partition("_")[2] for name in self.joint_names):
             return ""
         heads = {re.match(r"^[A-Za-z0-9]+_", name) for name in self.joint_names}
@@ -177,10 +177,10 @@ def load_robot(source: str | Path | None = None) -> Robot:
 
     Args:
         source: path of a URDF file; None is the Franka Emika Panda of the example-robot-data
-            package. A string that starts with "<" is a URDF itself, as in /robot_description.
+            package. A string that starts with "<" is the URDF itself, as in /robot_description.
 
     Raises:
-        RobotError: the file is not there, or not a URDF.
+        RobotError: the file does not exist or is not a URDF.
     """
     if isinstance(source, str) and source.lstrip().startswith("<"):
         where, text, folder = "The robot description", source, None
@@ -198,7 +198,7 @@ def load_robot(source: str | Path | None = None) -> Robot:
 
 @lru_cache(maxsize=16)
 def _robot(text: str, where: str, folder: Path | None) -> Robot:
-    # Recordings of the same robot share it, and with it the meshes that are loaded once.
+    # Recordings of the same robot share it, so that its meshes are loaded once.
     _check_is_urdf(where, text)
     try:
         urdf = yourdfpy.URDF.load(
@@ -208,14 +208,14 @@ def _robot(text: str, where: str, folder: Path | None) -> Robot:
             build_scene_graph=True,
         )
         robot = Robot(urdf, str(urdf.robot.name), text)
-        robot.link_poses({})  # joints that form a loop are found out only here
-    except Exception as error:  # yourdfpy raises whatever its parser or its maths meets
+        robot.link_poses({})  # fails here where joints form a loop
+    except Exception as error:  # yourdfpy has no error type of its own
         raise RobotError(f"{where} is not a URDF that can be used: {error}.") from error
     return robot
 
 
 def _check_is_urdf(where: str, text: str) -> None:
-    # yourdfpy repairs broken XML silently, and then fails on what it made of it.
+    # yourdfpy repairs broken XML silently and fails on the result.
     try:
         root = ElementTree.fromstring(text.strip().encode("utf-8"))
     except ElementTree.ParseError as error:

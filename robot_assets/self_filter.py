@@ -1,4 +1,4 @@
-"""Which readings show the robot's own body (paper, section II-A)."""
+"""Self filter: detection of readings of the robot's own body (paper, section II-A)."""
 
 from collections.abc import Mapping
 
@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 from robot_assets.raycast import RayCaster
 from robot_assets.robot import Robot, Transform
 
-# A zone is about a tenth of its distance wide and sees the body before its centre ray does: the
-# body is tested at the centre and towards the corners of the zone.
+# Offsets of the cast rays in zones: the centre, and towards the corners. A zone is about a tenth of
+# its distance wide, and can see the body where its centre ray does not.
 _FOOTPRINT = np.array([(0.0, 0.0), (-0.4, -0.4), (-0.4, 0.4), (0.4, -0.4), (0.4, 0.4)])
 
 
 class SelfFilter:
-    """Casts the zones' rays against the robot's posed collision meshes.
+    """Self filter that casts the zones' rays against the robot's posed collision meshes.
 
-    A reading that ends at the body or behind it shows the body: nothing behind it can be seen.
+    A reading at the body or behind it is of the body, which hides everything behind it.
 
     Args:
-        robot: whose collision meshes are cast against.
-        margin: readings that end this much before the body still count as the body, metres.
+        robot: its collision meshes are used.
+        margin: readings up to this far in front of the body count as the body, metres.
     """
 
     def __init__(self, robot: Robot, margin: float = 0.03) -> None:
@@ -35,13 +35,13 @@ class SelfFilter:
         T_base_sensor: NDArray[np.float64],
         link_poses: Mapping[str, Transform],
     ) -> NDArray[np.bool_]:
-        """Tell which readings show the robot.
+        """Find the readings of the robot itself.
 
         Args:
             ranges: (S, R, C) metres, NaN where invalid.
             directions: (S, R, C, 3), range times direction is the point in the optical frame.
             T_base_sensor: (S, 4, 4).
-            link_poses: {link: T_base_link}; a link without a pose is not cast against.
+            link_poses: {link: T_base_link}; links without a pose are ignored.
 
         Returns:
             (S, R, C), False where invalid.
@@ -69,7 +69,7 @@ class SelfFilter:
 def _zone_steps(
     directions: NDArray[np.float64], offset: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """How far directions move by `offset` (rows, columns) of a zone, whose steps are uniform."""
+    """Change of the directions for an `offset` (rows, columns) in zones; zones are equidistant."""
     down = directions[:, 1:2, :1] - directions[:, :1, :1]
     right = directions[:, :1, 1:2] - directions[:, :1, :1]
     return offset[0] * down + offset[1] * right

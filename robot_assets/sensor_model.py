@@ -1,4 +1,4 @@
-"""A time-of-flight sensor: how its readings become points."""
+"""Intrinsics of a time-of-flight sensor, and the order of its readings."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,25 +10,24 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class SensorModel:
-    """A multizone time-of-flight sensor, as a pinhole camera whose pixels are zones.
+    """Multizone time-of-flight sensor, modelled as a pinhole camera whose pixels are zones.
 
-    The optical frame is REP 103's: x right, y down, z forward. Readings are kept in rows from up
-    to down and columns from left to right, looking outward; `reading_order` and the flips say how
-    the driver delivers them.
+    The optical frame is REP 103's: x right, y down, z forward. Readings are kept in rows from top
+    to bottom and columns from left to right, looking outward; `reading_order` and the flips
+    describe how the driver delivers them.
 
     Attributes:
         name: type of the sensor.
-        rows: zones from up to down.
-        columns: zones from left to right.
-        field_of_view: angle from the left edge of the field of view to the right one, rad.
-        min_range: smallest reading that counts, m.
-        max_range: largest reading that counts, m.
-        distance: what a reading is: along the optical axis, or along the zone's own ray.
-        reading_order: whether readings run along rows or along columns.
+        rows: number of zones from top to bottom.
+        columns: number of zones from left to right.
+        field_of_view: horizontal angle between the outer edges of the field of view, rad.
+        min_range: smallest valid reading, m.
+        max_range: largest valid reading, m.
+        distance: perpendicular: readings are along the optical axis; radial: along the zone's ray.
+        reading_order: whether the driver delivers readings row by row or column by column.
         flip_vertical: whether the driver's first row is the lowest.
         flip_horizontal: whether the driver's first column is the rightmost.
-        vertical_field_of_view: angle from its upper edge to the lower one, rad; None where the
-            field of view is square.
+        vertical_field_of_view: vertical angle likewise, rad; None where it is the same.
     """
 
     name: str = "VL53L5CX"
@@ -45,19 +44,19 @@ class SensorModel:
 
     @property
     def focal_length(self) -> float:
-        """Focal length along x, in columns: the outer edges of the outer zones bound the view."""
+        """Focal length along x, in columns."""
         return 0.5 * self.columns / np.tan(0.5 * self.field_of_view)
 
     @property
     def vertical_focal_length(self) -> float:
-        """Focal length along y, in rows, likewise."""
+        """Focal length along y, in rows."""
         across = self.field_of_view
         down = across if self.vertical_field_of_view is None else self.vertical_field_of_view
         return 0.5 * self.rows / np.tan(0.5 * down)
 
     @cached_property
     def directions(self) -> NDArray[np.float64]:
-        """(rows, columns, 3): a reading times its direction is the point in the optical frame."""
+        """(rows, columns, 3); a reading times its direction is the point in the optical frame."""
         rays = zone_rays(
             self.rows,
             self.columns,
@@ -69,7 +68,7 @@ class SensorModel:
         return rays if self.distance == "perpendicular" else unit(rays)
 
     def delivers(self, rows: int, columns: int) -> bool:
-        """Whether the driver's images may be of this size."""
+        """Whether the driver's images can have this size."""
         turned = self.reading_order == "column_major" and (columns, rows) == (
             self.rows,
             self.columns,
@@ -77,9 +76,9 @@ class SensorModel:
         return turned or (rows, columns) == (self.rows, self.columns)
 
     def arrange(self, readings: NDArray[Any]) -> NDArray[Any]:
-        """Bring readings as the driver delivers them into this model's order (rows, columns)."""
+        """Reorder readings as delivered by the driver into this model's (rows, columns)."""
         if self.reading_order == "column_major":
-            # A driver may call its images rows x columns all the same.
+            # The shape cannot be trusted: a driver may label these images rows x columns, too.
             readings = readings.reshape(self.columns, self.rows).T
         if self.flip_vertical:
             readings = readings[::-1]
@@ -88,7 +87,7 @@ class SensorModel:
         return readings
 
     def of_depth_images(self) -> "SensorModel":
-        """The same sensor where its readings are in order and along the optical axis already."""
+        """The same sensor with readings as in a depth image: in order, along the optical axis."""
         return replace(
             self,
             distance="perpendicular",
@@ -104,12 +103,12 @@ def zone_rays(
     """Rays through the centres of the zones of a pinhole camera.
 
     Args:
-        rows: zones from up to down.
-        columns: zones from left to right.
-        fx: focal length along x, in zones; likewise `fy`.
+        rows: number of zones from top to bottom.
+        columns: number of zones from left to right.
+        fx: focal length along x, in zones.
         fy: focal length along y, in zones.
-        cx: column of the optical axis, counted from the centre of the first; likewise `cy`.
-        cy: row of the optical axis.
+        cx: column of the optical axis, 0 at the centre of the first column.
+        cy: row of the optical axis, 0 at the centre of the first row.
 
     Returns:
         (rows, columns, 3) in the optical frame, each with z = 1.

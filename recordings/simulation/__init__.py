@@ -1,4 +1,4 @@
-"""Simulated recordings of the paper's three scenarios."""
+"""Simulator of recordings: the paper's three scenarios and more."""
 
 from recordings.simulation.imperfections import IMPERFECTIONS, Imperfection
 from recordings.simulation.noise import NOISE_MODELS, NoiseModel

@@ -1,4 +1,4 @@
-"""What the sensors can see: meshes with a surface, at rest or moving."""
+"""Objects of a scene: meshes with a surface, at rest or moving."""
 
 from dataclasses import dataclass
 
@@ -13,18 +13,18 @@ from robot_assets import Transform
 SURROUNDINGS, TARGET, OWN_ROBOT, SECOND_ROBOT, FURTHER = 0, 1, 2, 3, 32
 """Numbers of objects in the truth.
 
-The links of the second robot follow from SECOND_ROBOT on, objects that move besides the target,
-such as its limbs, from FURTHER on.
+The links of the second robot are numbered from SECOND_ROBOT on; further moving objects, such as
+limbs, from FURTHER on.
 """
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Something that never moves.
+    """Mesh at rest.
 
     Attributes:
         mesh: in the fixed frame, metres.
-        surface: of it.
+        surface: of the mesh.
     """
 
     mesh: trimesh.Trimesh
@@ -33,12 +33,12 @@ class Piece:
 
 @dataclass(frozen=True)
 class Body:
-    """Something that may move: a mesh at a pose, and how the pose changes.
+    """Rigid body at an instant: a mesh, its pose, and the derivative of the pose.
 
     Attributes:
         number: of its object in the truth.
         mesh: in its own frame, metres.
-        surface: of it.
+        surface: of the mesh.
         T_fixed_body: (4, 4).
         rate: (4, 4), the derivative of T_fixed_body.
     """
@@ -51,11 +51,11 @@ class Body:
 
     @property
     def turn_rate(self) -> NDArray[np.float64]:
-        """Turn rate (3,) in rad/s, in the axes of the fixed frame."""
+        """Angular velocity (3,) in rad/s, in the axes of the fixed frame."""
         spin = self.rate[:3, :3] @ self.T_fixed_body[:3, :3].T
         return np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
 
-    def placed(self) -> trimesh.Trimesh:
+    def posed_mesh(self) -> trimesh.Trimesh:
         """The mesh in the fixed frame."""
         return self.mesh.copy().apply_transform(self.T_fixed_body)
 
@@ -68,12 +68,12 @@ class Body:
 
 @dataclass(frozen=True)
 class Actor:
-    """A body with its motion over the whole recording.
+    """Rigid body with its motion over the whole recording.
 
     Attributes:
         number: of its object in the truth.
         mesh: in its own frame, metres.
-        surface: of it.
+        surface: of the mesh.
         motion: of its frame in the fixed frame.
     """
 

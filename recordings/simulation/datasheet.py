@@ -1,4 +1,4 @@
-"""Accuracy and range of the VL53L5CX by its datasheet, between the surfaces that it lists.
+"""Accuracy and range of the VL53L5CX by its datasheet, interpolated between its two reflectances.
 
 DS13754 Rev 2 (STMicroelectronics, August 2021), 8 x 8 zones, 15 Hz, continuous mode: the tables of
 ranging accuracy (at 2.7 sigma, 99.3 % of readings) and of maximum ranging distance (typical).
@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 _WHITE, _GREY = 0.88, 0.17  # reflectances of the datasheet's targets
 _SIGMAS = 2.7
-_NEAR, _NEAR_ERROR = 0.2, 0.015  # metres; closer than the first the error is the second
+_NEAR, _NEAR_ERROR = 0.2, 0.015  # metres; below _NEAR the error is constant
 
 
 @dataclass(frozen=True)
-class Light:
-    """What the sensor achieves in a certain ambient light, on white and on grey.
+class AmbientLight:
+    """Accuracy and range in one ambient light, each (on white, on grey).
 
     Attributes:
-        error: share of the distance from 0.2 m on.
-        inner: metres that the inner zones reach.
-        corner: metres that the corner zones reach.
+        error: share of the distance, from 0.2 m on.
+        inner: maximum range of the inner zones, metres.
+        corner: maximum range of the corner zones, metres.
     """
 
     error: tuple[float, float]
@@ -31,26 +31,26 @@ class Light:
     def sigma(
         self, readings: NDArray[np.float64], reflectance: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """One sigma in metres of readings in metres."""
+        """Standard deviation in metres of readings in metres."""
         share = _between(self.error, reflectance)
         return np.where(readings < _NEAR, _NEAR_ERROR, share * readings) / _SIGMAS
 
     def reach(
         self, reflectance: NDArray[np.float64], corner: NDArray[np.bool_]
     ) -> NDArray[np.float64]:
-        """Metres beyond which a zone, a corner zone or not, detects nothing."""
+        """Maximum range in metres for a reflectance, in corner zones or others."""
         return np.where(
             corner, _between(self.corner, reflectance), _between(self.inner, reflectance)
         )
 
 
-DARK = Light(error=(0.05, 0.05), inner=(3.5, 1.3), corner=(3.1, 1.1))
-BRIGHT = Light(error=(0.08, 0.11), inner=(1.1, 0.8), corner=(1.0, 0.65))
+DARK = AmbientLight(error=(0.05, 0.05), inner=(3.5, 1.3), corner=(3.1, 1.1))
+BRIGHT = AmbientLight(error=(0.08, 0.11), inner=(1.1, 0.8), corner=(1.0, 0.65))
 """5 klux."""
 
 
 def _between(values: tuple[float, float], reflectance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A power of the reflectance that has the values on white and on grey."""
+    """Power law of the reflectance through the values on white and on grey."""
     white, grey = values
     power = np.log(white / grey) / np.log(_WHITE / _GREY)
     return white * (reflectance / _WHITE) ** power

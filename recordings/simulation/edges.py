@@ -1,4 +1,4 @@
-"""Zones that look across a step: what is in front, and what is behind."""
+"""Depth discontinuities within zones: the surfaces in front and behind."""
 
 from dataclasses import dataclass
 
@@ -6,17 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 STEP = 0.6
-"""Metres between what is in front and what is behind, from which a zone looks across a step."""
-_LEAST = 1 / 8  # share of the zone that each of the two fills at least
+"""Smallest depth discontinuity within a zone, metres."""
+_LEAST = 1 / 8  # smallest share of a zone's rays on either side
 
 
 @dataclass(frozen=True)
-class Seen:
-    """What each zone sees.
+class ZoneHits:
+    """Surface hit by each zone.
 
     Attributes:
-        distance: (S, rows, columns) metres as the sensor measures, inf where nothing is met.
-        piece: (S, rows, columns) index of the piece that is met, -1 likewise.
+        distance: (S, rows, columns) metres as the sensor measures, inf where nothing is hit.
+        piece: (S, rows, columns) index of the mesh that is hit, -1 for none.
     """
 
     distance: NDArray[np.float64]
@@ -25,25 +25,25 @@ class Seen:
 
 @dataclass(frozen=True)
 class Edges:
-    """Where zones look across a step.
+    """Depth discontinuities within zones.
 
     Attributes:
-        step: (S, rows, columns) whether a zone does.
-        front: what is in front; only meant where there is a step.
-        behind: what is behind, likewise.
+        step: (S, rows, columns) whether a zone has one.
+        front: surface in front; defined only where there is a step.
+        behind: surface behind, likewise.
     """
 
     step: NDArray[np.bool_]
-    front: Seen
-    behind: Seen
+    front: ZoneHits
+    behind: ZoneHits
 
 
 def edges(distance: NDArray[np.float64], piece: NDArray[np.int64]) -> Edges:
     """Find the largest step within each zone.
 
     Args:
-        distance: (S, rows, columns, R) metres along the rays of a zone, inf where nothing is met.
-        piece: (S, rows, columns, R) index of the piece that a ray meets.
+        distance: (S, rows, columns, R) metres of the rays of a zone, inf where nothing is hit.
+        piece: (S, rows, columns, R) index of the mesh that a ray hits.
     """
     order = np.argsort(distance, axis=-1)
     sorted_distance = np.take_along_axis(distance, order, axis=-1)
@@ -62,4 +62,4 @@ def edges(distance: NDArray[np.float64], piece: NDArray[np.int64]) -> Edges:
     def piece_at(index: NDArray[np.int64]) -> NDArray[np.int64]:
         return np.take_along_axis(sorted_piece, index[..., None], axis=-1)[..., 0]
 
-    return Edges(step, Seen(front, piece_at(last)), Seen(behind, piece_at(last + 1)))
+    return Edges(step, ZoneHits(front, piece_at(last)), ZoneHits(behind, piece_at(last + 1)))

@@ -1,4 +1,4 @@
-"""What may be wrong with a simulated recording besides noise, each by a name of its own."""
+"""Imperfections of a simulated recording besides noise, by name."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,11 +8,11 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Imperfection:
-    """Something that can be switched on with any noise model.
+    """Imperfection that can be combined with any noise model.
 
     Attributes:
         name: as on the command line.
-        text: what it does, in one clause.
+        text: description in one clause.
     """
 
     name: str
@@ -24,8 +24,7 @@ IMPERFECTIONS = {
     for imperfection in (
         Imperfection(
             "bias",
-            "each sensor errs by a constant and a share of the distance of its own, one sigma "
-            "10 mm and 1 %",
+            "each sensor has its own offset and scale error, one sigma 10 mm and 1 %",
         ),
         Imperfection(
             "border_zones",
@@ -33,37 +32,37 @@ IMPERFECTIONS = {
         ),
         Imperfection(
             "fixed_pattern",
-            "each zone errs by a constant of its own, one sigma 1 mm and 3 mm at the corners",
+            "each zone has its own constant error, one sigma 1 mm, 3 mm at the corners",
         ),
         Imperfection(
             "dropouts",
-            "readings of wood and of screens drop out for a while: valid stays valid by 0.943, "
-            "invalid becomes valid by 0.038",
+            "readings of wood and of screens drop out for a while: valid stays valid with "
+            "probability 0.943, invalid becomes valid with 0.038",
         ),
         Imperfection(
             "flying_pixels",
-            "zones across a step of more than 0.6 m are valid by 0.64, and read what is in front, "
-            "what is behind or something between",
+            "zones across a step of more than 0.6 m are valid with probability 0.64, and read the "
+            "distance in front, behind or between",
         ),
         Imperfection(
             "ramps",
-            "what moves takes 0.25 s to reach its speed and 0.25 s to stop, instead of jumping",
+            "motions take 0.25 s to reach their speed and 0.25 s to stop, instead of none",
         ),
         Imperfection("dropped_frames", "frames are lost, 5 % of them"),
         Imperfection(
             "stamp_jitter",
-            "readings are stamped earlier or later than they were taken, one sigma 4 ms",
+            "stamps are off from the time of the readings, one sigma 4 ms",
         ),
     )
 }
-"""{name: imperfection}, in the order in which they are named."""
+"""{name: imperfection}."""
 
 
 def in_order(names: Iterable[str]) -> tuple[str, ...]:
     """The names once each, in the order of IMPERFECTIONS.
 
     Raises:
-        ValueError: there is no imperfection of some name.
+        ValueError: a name is unknown.
     """
     wanted = set(names)
     if unknown := wanted - set(IMPERFECTIONS):
@@ -75,18 +74,18 @@ def in_order(names: Iterable[str]) -> tuple[str, ...]:
 
 
 class Streams:
-    """Random numbers, a stream for each imperfection, so that none changes another's.
+    """Independent random streams, one per imperfection, so that none changes another's numbers.
 
     Args:
-        key: what tells recordings apart, whole numbers below 2**32.
+        key: seed of the recording, whole numbers below 2**32.
     """
 
-    # Parts of the key are bytes or counts; this number parts the name from them.
+    # Separates the key from the name; parts of the key are bytes or counts, never this number.
     _BETWEEN = 2**32 - 1
 
     def __init__(self, key: Iterable[int]) -> None:
         self._key = [*key]
 
     def of(self, name: str) -> np.random.Generator:
-        """The stream of an imperfection, from its start."""
+        """New generator at the start of an imperfection's stream."""
         return np.random.default_rng([*self._key, self._BETWEEN, *name.encode()])

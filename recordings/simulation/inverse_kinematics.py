@@ -1,4 +1,4 @@
-"""Joint positions that bring a Panda's flange to a pose: damped least squares."""
+"""Inverse kinematics of a Panda by damped least squares."""
 
 from collections.abc import Mapping
 
@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from robot_assets import Robot, Transform
 
 FLANGE = "panda_link8"
-# {joint: the link it turns}; a Panda's joints all turn about the z axis of that link.
+# {joint: the link it turns}; all joints of a Panda turn about the z axis of their link.
 _JOINTS = {f"panda_joint{i}": f"panda_link{i}" for i in range(1, 8)}
 _DAMPING = 1e-2
 _TOLERANCE = 1e-6  # metres and rad
@@ -16,18 +16,18 @@ _MAX_STEPS = 200
 
 
 class UnreachableError(Exception):
-    """No joint positions within the limits bring the flange there."""
+    """Pose of the flange that no joint positions within the limits reach."""
 
 
 def inverse_kinematics(
     robot: Robot, start: Mapping[str, float], T_base_flange: Transform
 ) -> dict[str, float]:
-    """Move from `start` to joint positions nearby whose flange is at a pose.
+    """Find joint positions near `start` that bring the flange to a pose.
 
     Args:
         robot: a Panda.
         start: {joint: rad or m}; joints that do not move the flange keep their values.
-        T_base_flange: (4, 4) the pose that is wanted.
+        T_base_flange: (4, 4) wanted pose.
 
     Raises:
         UnreachableError: the pose is out of reach, or beyond the joints' limits.
@@ -53,7 +53,7 @@ def _difference(wanted: Transform, current: Transform) -> np.ndarray:
 
 
 def _jacobian(poses: Mapping[str, Transform]) -> np.ndarray:
-    """(6, 7): the flange's velocity and turn rate per joint rate, in the base's axes."""
+    """Jacobian (6, 7): velocity and angular velocity of the flange per joint rate, in the base."""
     flange = poses[FLANGE][:3, 3]
     axes = np.stack([poses[link][:3, 2] for link in _JOINTS.values()])
     arms = np.stack([flange - poses[link][:3, 3] for link in _JOINTS.values()])

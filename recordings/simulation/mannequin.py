@@ -1,12 +1,12 @@
-"""The mannequin, and a person: each part lofted over its cross-sections."""
+"""Meshes of a mannequin and a person, each part lofted over cross-sections."""
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-# Cross-sections from the lower to the upper end: height, half width, half depth, and how far the
-# middle lies in front (-y), in metres. The origin is in the middle of the chest; it faces -y.
+# Cross-sections from the lower to the upper end: height, half width, half depth, and offset of the
+# centre to the front (-y), in metres. The origin is the centre of the chest; the body faces -y.
 _TORSO = (
     (-0.420, 0.030, 0.020, 0.000),
     (-0.415, 0.120, 0.075, 0.000),
@@ -33,7 +33,7 @@ _HEAD = (
     (0.548, 0.025, 0.032, -0.004),
     (0.552, 0.006, 0.008, -0.004),
 )
-# Along the hanging arm, from the finger tips to the shoulder, whose middle is at height 0.
+# Hanging arm from the finger tips to the shoulder, whose centre is at height 0.
 _ARM = (
     (-0.640, 0.006, 0.010, 0.010),
     (-0.630, 0.014, 0.030, 0.010),
@@ -46,7 +46,7 @@ _ARM = (
     (0.025, 0.046, 0.050, 0.000),
     (0.048, 0.012, 0.014, 0.000),
 )
-# From the sole to the hip, whose middle is at height 0.
+# Leg from the sole to the hip, whose centre is at height 0.
 _LEG = (
     (-0.840, 0.036, 0.110, 0.060),
     (-0.830, 0.044, 0.120, 0.060),
@@ -66,16 +66,16 @@ HIP = (0.092, 0.0, -0.36)
 """The left hip, likewise."""
 _SPREAD, _HANGING = 0.5, 0.12  # rad, of the arms away from the body
 GRIP = (0.0, 0.125, 0.13)
-"""The middle of the outer side of the plate between the shoulders, metres in its frame."""
+"""Centre of the outer face of the plate between the shoulders, metres in the mannequin's frame."""
 _PLATE = (0.10, 0.06, 0.10)
 
 _RINGS, _SEGMENTS = 48, 40
 
 
 def mannequin() -> trimesh.Trimesh:
-    """The upper half of a mannequin, about 0.97 m high, as closed pieces that overlap.
+    """Upper half of a mannequin, about 0.97 m high, as closed parts that overlap.
 
-    Its frame has the origin in the middle of the chest, z up, and it faces -y.
+    The origin is the centre of the chest, z points up, and the mannequin faces -y.
     """
     left = _left_arm(_SPREAD)
     right = left.copy()
@@ -86,9 +86,9 @@ def mannequin() -> trimesh.Trimesh:
 
 
 def person() -> tuple[trimesh.Trimesh, trimesh.Trimesh, trimesh.Trimesh]:
-    """A person of about 1.75 m: head and torso, left arm, left leg, in the frame of the chest.
+    """Person of about 1.75 m: head and torso, left arm, left leg, in the frame of the chest.
 
-    The limbs hang straight. The soles are 1.20 m below the middle of the chest.
+    The limbs hang straight. The soles are 1.20 m below the centre of the chest.
     """
     body = trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD)])
     leg = _loft(_LEG)
@@ -97,16 +97,16 @@ def person() -> tuple[trimesh.Trimesh, trimesh.Trimesh, trimesh.Trimesh]:
 
 
 def _left_arm(spread: float) -> trimesh.Trimesh:
-    """The left arm at its shoulder, `spread` rad away from the body."""
+    """Left arm at its shoulder, `spread` rad away from the body."""
     arm = _loft(_ARM)
     arm.apply_transform(trimesh.transformations.rotation_matrix(-spread, (0.0, 1.0, 0.0)))
     return arm.apply_translation(SHOULDER)
 
 
 def _loft(sections: tuple[tuple[float, float, float, float], ...]) -> trimesh.Trimesh:
-    """A closed surface whose cross-sections are ellipses, smooth between those given."""
+    """Closed surface with elliptic cross-sections, interpolated smoothly between those given."""
     table = np.array(sections)
-    # Close together at the ends, which are round.
+    # Denser at the ends, which are round.
     along = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, _RINGS))
     heights = table[0, 0] + along * (table[-1, 0] - table[0, 0])
     width, depth, front = PchipInterpolator(table[:, 0], table[:, 1:])(heights).T

@@ -1,4 +1,4 @@
-"""Models of the error of a reading, by name."""
+"""Noise models of a reading, by name."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.simulation.datasheet import BRIGHT, DARK, Light
+from recordings.simulation.datasheet import BRIGHT, DARK, AmbientLight
 
 Values = NDArray[np.float64]
 
@@ -21,16 +21,16 @@ def _everywhere(readings: Values, reflectance: Values, corner: NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class NoiseModel:
-    """How readings err.
+    """Model of the errors of readings.
 
     Attributes:
         name: as on the command line.
-        text: what it does, in one clause.
-        sigma: takes true readings in metres, the reflectance of what they are of and a generator;
-            gives one sigma of the Gaussian noise in metres.
-        shift: takes true readings in metres, gives an error in metres that they all have.
-        reach: takes true readings in metres, the reflectance of what they are of, and whether
-            they are of a corner zone; gives the metres beyond which nothing is detected.
+        text: description in one clause; it is stored in recordings.
+        sigma: (true readings in metres, reflectances, generator) -> standard deviation of the
+            Gaussian noise in metres.
+        shift: true readings in metres -> systematic error in metres.
+        reach: (true readings in metres, reflectances, whether of corner zones) -> maximum range
+            in metres.
         includes: names of the imperfections that are part of it.
     """
 
@@ -45,20 +45,20 @@ class NoiseModel:
 def _paper(readings: Values, reflectance: Values, rng: np.random.Generator) -> Values:
     """Errors of 8 to 11 % of the distance (paper, section III-B), taken as three sigma.
 
-    As one sigma they would be far larger than what the paper's own results allow. Below 0.2 m the
-    datasheet of the VL53L5CX gives 15 mm, at its 2.7 sigma.
+    As one sigma they would be far too large for the paper's own results. Below 0.2 m the datasheet
+    of the VL53L5CX gives 15 mm at 2.7 sigma.
     """
     bound = rng.uniform(0.08, 0.11, readings.shape)
     return np.where(readings < 0.2, 0.015 / 2.7, bound / 3 * readings)
 
 
 def _measured(readings: Values, reflectance: Values, rng: np.random.Generator) -> Values:
-    """One static zone of a VL53L5CX on a parked drone, 15 Hz: 0.65 mm at 0.025 m, 15 at 2.16 m."""
+    """Fit to a zone of a VL53L5CX on a parked drone, 15 Hz: 0.65 mm at 0.025 m, 15 mm at 2.16 m."""
     return 0.0005 + 0.006 * readings
 
 
 def _measured_shift(readings: Values) -> Values:
-    """The scale of the same sensors is off by -0.5 %, and near ones read 6 mm too far."""
+    """Scale error of the same sensors, -0.5 %, and 6 mm too far below 0.3 m."""
     return -0.005 * readings + np.where(readings < 0.3, 0.006, 0.0)
 
 
@@ -66,7 +66,7 @@ def _none(readings: Values, reflectance: Values, rng: np.random.Generator) -> Va
     return np.zeros_like(readings)
 
 
-def _datasheet(name: str, text: str, light: Light) -> NoiseModel:
+def _datasheet(name: str, text: str, light: AmbientLight) -> NoiseModel:
     return NoiseModel(
         name,
         text,

@@ -1,11 +1,11 @@
-"""The scenarios: what moves, where to, how far; the paper's three (section III-B), and more."""
+"""Scenarios of the simulator: the paper's three (section III-B), and more."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from recordings.simulation.casts import Cast, crossing, fast, turning, walking
-from recordings.simulation.glide import Glide
+from recordings.simulation.actors import ActorFactory, crossing, fast, turning, walking
+from recordings.simulation.trajectory import Trajectory
 
 SPEEDS = (0.15, 0.20, 0.25, 0.30)
 """m/s, the paper's target speeds of the mannequin."""
@@ -14,25 +14,25 @@ TRIALS = (1, 2, 3, 4, 5)
 
 _Path = tuple[tuple[float, float, float], ...]
 
-# Facing +y, and upright: all three rings look around the robot, and not at ceiling and bench.
+# Facing +y and upright, so that no ring looks at the ceiling or the bench.
 _UPRIGHT = (np.pi / 2, -0.2, 0.0, -0.7, 0.0, np.pi + 0.5, np.pi / 4)
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """An experiment.
+    """Scenario of an experiment.
 
     Attributes:
         name: as on the command line and in file names.
-        text: what happens, in one clause.
-        start: (x, y) metres from the nominal place of the mannequin to where it starts.
-        mannequin: the straight pieces of the mannequin's path, metres in the fixed frame, empty
-            where it rests.
-        robot: the straight pieces of the sensorised end-effector's path, empty where it rests.
+        text: description in one clause.
+        start: (x, y) metres from the mannequin's nominal position to its start.
+        mannequin: segments of the mannequin's path, metres in the fixed frame; empty where it
+            rests.
+        robot: segments of the sensorised end-effector's path, likewise.
         robot_speed: m/s of the sensorised end-effector.
         posture: the seven joints of the sensorised arm at the start, rad.
-        speeds: m/s at which it is made where no speed is asked for.
-        cast: what moves in place of the mannequin and of the second robot that carries it.
+        speeds: default speeds, m/s.
+        actors: makes the moving bodies, instead of the mannequin and the robot that carries it.
     """
 
     name: str
@@ -43,24 +43,24 @@ class Scenario:
     robot_speed: float = 0.25
     posture: tuple[float, ...] = _UPRIGHT
     speeds: tuple[float, ...] = SPEEDS
-    cast: Cast | None = None
+    actors: ActorFactory | None = None
 
     @property
     def still(self) -> bool:
         """Whether nothing moves but the sensorised robot; then its speed is 0."""
-        return self.cast is None and not self.mannequin
+        return self.actors is None and not self.mannequin
 
-    def mannequin_glide(self, speed: float, ramp: float = 0.0) -> Glide | None:
-        """The mannequin's motion at `speed` m/s with ramps of so many seconds, None at rest."""
-        return Glide(np.array(self.mannequin), speed, ramp) if self.mannequin else None
+    def mannequin_trajectory(self, speed: float, ramp: float = 0.0) -> Trajectory | None:
+        """Trajectory of the mannequin at `speed` m/s with ramps of `ramp` seconds, None at rest."""
+        return Trajectory(np.array(self.mannequin), speed, ramp) if self.mannequin else None
 
-    def robot_glide(self, ramp: float = 0.0) -> Glide | None:
-        """The motion of the sensorised end-effector, None where it rests."""
-        return Glide(np.array(self.robot), self.robot_speed, ramp) if self.robot else None
+    def robot_trajectory(self, ramp: float = 0.0) -> Trajectory | None:
+        """Trajectory of the sensorised end-effector, None where it rests."""
+        return Trajectory(np.array(self.robot), self.robot_speed, ramp) if self.robot else None
 
 
 _TOWARDS: _Path = ((0.0, -0.30, 0.0),)
-# The second piece goes on 0.10 m in the direction of the first.
+# The second segment continues for 0.10 m in the direction of the first.
 _FIRST = np.array([0.05, -0.15, 0.0])
 _SECOND = 0.10 * _FIRST / np.linalg.norm(_FIRST)
 _RETREAT: _Path = (tuple(_FIRST.tolist()), tuple(_SECOND.tolist()))
@@ -77,7 +77,7 @@ SCENARIOS = {
         Scenario(
             "sideways",
             "the mannequin passes 0.25 m sideways, along x",
-            # The path is centred in front of the robot, where the first scenario is half-way.
+            # Centred in front of the robot, at the distance of the first scenario's half-way point.
             start=(-0.125, -0.15),
             mannequin=((0.25, 0.0, 0.0),),
         ),
@@ -92,24 +92,24 @@ SCENARIOS = {
             "walking",
             "a person walks 1.04 m up to the robot, arms and legs swinging",
             speeds=(0.25, 0.5, 1.0),
-            cast=walking,
+            actors=walking,
         ),
         Scenario(
             "turning",
             "a mannequin turns by 90 degrees on the spot, its hand at the speed",
-            cast=turning,
+            actors=turning,
         ),
         Scenario(
             "crossing",
             "two mannequins pass each other along x, 1.20 m each",
             speeds=(0.25, 0.5),
-            cast=crossing,
+            actors=crossing,
         ),
         Scenario(
             "fast",
             "a parcel flies past, 2.20 m along x",
             speeds=(0.5, 1.0, 1.5, 2.0),
-            cast=fast,
+            actors=fast,
         ),
         Scenario("still", "nothing moves; the mannequin stands there", speeds=(0.0,)),
         Scenario(

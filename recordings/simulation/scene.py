@@ -1,4 +1,4 @@
-"""The scene of a scenario: the robots, what moves and the lab, at any time."""
+"""Scene of a scenario at any time: the robots, the moving bodies, and the lab."""
 
 import numpy as np
 import trimesh
@@ -6,35 +6,35 @@ from numpy.typing import NDArray
 
 from recordings.simulation.arm import Arm
 from recordings.simulation.body import OWN_ROBOT, SECOND_ROBOT, TARGET, Actor, Body
-from recordings.simulation.glide import REST, Glide
 from recordings.simulation.inverse_kinematics import FLANGE, inverse_kinematics
 from recordings.simulation.mannequin import GRIP, mannequin
 from recordings.simulation.motion import Translation
 from recordings.simulation.scenario import Scenario
 from recordings.simulation.surface import PAINT, PLASTIC
 from recordings.simulation.surroundings import surroundings
+from recordings.simulation.trajectory import REST, Trajectory
 from robot_assets import Robot, Transform
 
-# Where the middle of the mannequin's chest starts, in the fixed frame. Its front is then 0.75 m
-# from the robot's axis, as the distance in the paper is understood here.
-_MANNEQUIN_PLACE = np.array([0.0, 0.885, 0.43])
-# The second robot stands behind it, and looks at the first one.
-_SECOND_ROBOT_PLACE = np.array([0.0, 1.485, 0.0])
+# Start of the centre of the mannequin's chest in the fixed frame. Its front is then 0.75 m from the
+# robot's axis, our reading of the distance in the paper.
+_MANNEQUIN_POSITION = np.array([0.0, 0.885, 0.43])
+# Behind the mannequin, facing the first robot.
+_SECOND_ROBOT_POSITION = np.array([0.0, 1.485, 0.0])
 _SECOND_POSTURE = (0.0, -0.4, 0.0, -2.3, 0.0, 2.75, np.pi / 4)
-_FINGERS = 0.105  # metres from the flange to what the fingers hold
+_FINGERS = 0.105  # metres from the flange to the held plate
 _SHORTEST = 3.0  # seconds
 _JOINTS = tuple(f"panda_joint{i}" for i in range(1, 8))
 
 
 class Scene:
-    """Everything the sensors can see.
+    """All objects that the sensors can see.
 
     Args:
-        scenario: what moves.
+        scenario: to play.
         speed: m/s of the target.
-        robot: the sensorised robot; the second one is of the same kind.
-        offset: (3,) metres by which the target starts elsewhere.
-        ramp: seconds that whatever moves takes to reach its speed, and to stop.
+        robot: the sensorised robot; the second robot is a copy.
+        offset: (3,) metres, added to the target's start.
+        ramp: seconds that motions take to reach their speed, and to stop.
     """
 
     def __init__(
@@ -46,22 +46,24 @@ class Scene:
         ramp: float = 0.0,
     ) -> None:
         self._robot = robot
-        self.own = Arm(robot, np.eye(4), _posture(scenario.posture), scenario.robot_glide(ramp))
+        self.own = Arm(
+            robot, np.eye(4), _posture(scenario.posture), scenario.robot_trajectory(ramp)
+        )
         self._second: Arm | None = None
-        if scenario.cast:
-            self._actors = scenario.cast(speed, offset, ramp)
+        if scenario.actors:
+            self._actors = scenario.actors(speed, offset, ramp)
         else:
-            start = _MANNEQUIN_PLACE + np.array([*scenario.start, 0.0]) + offset
-            glide = scenario.mannequin_glide(speed, ramp)
-            self._actors = [Actor(TARGET, mannequin(), PLASTIC, Translation(start, glide))]
-            self._second = _second_arm(robot, start, glide)
+            start = _MANNEQUIN_POSITION + np.array([*scenario.start, 0.0]) + offset
+            trajectory = scenario.mannequin_trajectory(speed, ramp)
+            self._actors = [Actor(TARGET, mannequin(), PLASTIC, Translation(start, trajectory))]
+            self._second = _second_arm(robot, start, trajectory)
         self.static = surroundings(pedestal=self._second is not None)
-        # A mannequin that glides at one speed is told by its velocity.
-        self._told_by_velocity = scenario.cast is None and ramp == 0.0
+        # The constant velocity of a mannequin defines its motion; no poses are needed.
+        self._velocity_suffices = scenario.actors is None and ramp == 0.0
 
     @property
     def duration(self) -> float:
-        """Seconds until all have rested again."""
+        """Seconds until the end of the final rest."""
         ends = [actor.motion.end for actor in self._actors]
         end = max(self.own.end, *ends) + REST
         return end if any(ends) else max(end, _SHORTEST)
@@ -71,13 +73,13 @@ class Scene:
         return self._actors[0].at(time)
 
     def object_poses(self, time: float) -> dict[int, Transform]:
-        """{number: T_fixed_body (4, 4)} of the objects whose velocity alone does not tell all."""
-        if self._told_by_velocity:
+        """{number: T_fixed_body (4, 4)} of the actors; empty where a constant velocity suffices."""
+        if self._velocity_suffices:
             return {}
         return {actor.number: actor.motion.pose(time) for actor in self._actors}
 
     def bodies(self, time: float) -> list[Body]:
-        """What moves on its own and the links of the robots."""
+        """The actors and the links of the robots."""
         bodies = [actor.at(time) for actor in self._actors]
         meshes = self._robot.collision_meshes
         poses, rates = self.own.link_poses(time), self.own.link_rates(time)
@@ -94,12 +96,14 @@ def _posture(values: tuple[float, ...]) -> dict[str, float]:
     return dict(zip(_JOINTS, values, strict=True))
 
 
-def _second_arm(robot: Robot, mannequin_start: NDArray[np.float64], glide: Glide | None) -> Arm:
-    """The robot that holds the mannequin by the plate on its back."""
+def _second_arm(
+    robot: Robot, mannequin_start: NDArray[np.float64], trajectory: Trajectory | None
+) -> Arm:
+    """Robot that holds the mannequin by the plate on its back."""
     T_fixed_base = trimesh.transformations.rotation_matrix(-np.pi / 2, (0.0, 0.0, 1.0))
-    T_fixed_base[:3, 3] = _SECOND_ROBOT_PLACE
+    T_fixed_base[:3, 3] = _SECOND_ROBOT_POSITION
     posture = _posture(_SECOND_POSTURE)
     T_base_flange = robot.link_poses(posture)[FLANGE]
-    grip = T_fixed_base[:3, :3].T @ (mannequin_start + GRIP - _SECOND_ROBOT_PLACE)
+    grip = T_fixed_base[:3, :3].T @ (mannequin_start + GRIP - _SECOND_ROBOT_POSITION)
     T_base_flange[:3, 3] = grip - _FINGERS * T_base_flange[:3, 2]
-    return Arm(robot, T_fixed_base, inverse_kinematics(robot, posture, T_base_flange), glide)
+    return Arm(robot, T_fixed_base, inverse_kinematics(robot, posture, T_base_flange), trajectory)

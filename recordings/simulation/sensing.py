@@ -1,4 +1,4 @@
-"""From what the zones see to what the sensors report."""
+"""Sensor model of the simulator: from true distances to reported ranges and status."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.simulation.edges import Edges, Seen
+from recordings.simulation.edges import Edges, ZoneHits
 from recordings.simulation.imperfections import Streams
 from recordings.simulation.noise import NoiseModel
 from recordings.simulation.status import NO_TARGET, VALID, Dropouts, FlyingPixels
@@ -20,34 +20,34 @@ _PLAUSIBLE, _IMPLAUSIBLE_ERROR = 0.91, (0.06, 0.50)
 
 @dataclass(frozen=True)
 class Report:
-    """What the sensors report of a frame.
+    """Readings of all sensors in one frame.
 
     Attributes:
-        seen: what the readings are of, without noise.
-        ranges: (S, rows, columns) metres, NaN where nothing is reported; where a status is not
-            valid the distance is still there, as real sensors give it.
-        status: (S, rows, columns) ST's target status, None where the model knows of none.
+        seen: the surfaces that were measured, without noise.
+        ranges: (S, rows, columns) metres, NaN where nothing is reported; readings whose status is
+            not valid are included, as real sensors report them.
+        status: (S, rows, columns) ST's target status, None where it is not simulated.
     """
 
-    seen: Seen
+    seen: ZoneHits
     ranges: NDArray[np.float64]
     status: NDArray[np.uint8] | None
 
     @property
     def valid(self) -> NDArray[np.bool_]:
-        """(S, rows, columns) whether a reading counts."""
+        """(S, rows, columns) whether a reading is valid."""
         reported = np.isfinite(self.ranges)
         return reported if self.status is None else reported & (self.status == VALID)
 
 
 class Sensing:
-    """The errors of the sensors of a recording, frame after frame.
+    """Errors of the sensors of a recording, frame by frame.
 
     Args:
-        sensors: their number.
+        sensors: number of sensors.
         model: of all of them.
-        noise: how readings err.
-        imperfections: names of what else is wrong.
+        noise: model of the errors.
+        imperfections: names of those that are switched on.
         rng: of the noise.
         streams: of the imperfections.
     """
@@ -79,16 +79,16 @@ class Sensing:
 
     @property
     def needs_edges(self) -> bool:
-        """Whether it matters which zones look across a step."""
+        """Whether `report` needs the steps within zones."""
         return self._flying is not None
 
-    def report(self, seen: Seen, edges: Edges | None, surfaces: dict[int, Surface]) -> Report:
-        """What is reported of the next frame.
+    def report(self, seen: ZoneHits, edges: Edges | None, surfaces: dict[int, Surface]) -> Report:
+        """Simulate the readings of the next frame.
 
         Args:
-            seen: by each zone.
-            edges: steps within zones; needed where `needs_edges`.
-            surfaces: {index of a piece: its surface}.
+            seen: surface hit by each zone.
+            edges: steps within zones; required where `needs_edges`.
+            surfaces: {index of a mesh: its surface}.
         """
         states: list[NDArray[np.uint8]] = []
         if self._flying and edges:
@@ -115,7 +115,7 @@ class Sensing:
         return Report(seen, np.where(reported, noisy, np.nan), status)
 
     def _implausible_errors(self, shape: tuple[int, ...]) -> NDArray[np.float64]:
-        """Errors in metres of readings that are not valid: most have none."""
+        """Errors in metres of readings that are not valid, zero for most."""
         rng = self._implausible
         size = rng.uniform(*_IMPLAUSIBLE_ERROR, shape) * rng.choice([-1.0, 1.0], shape)
         return np.where(rng.random(shape) < _PLAUSIBLE, 0.0, size)
@@ -124,8 +124,8 @@ class Sensing:
 def _looked_up(
     piece: NDArray[np.int64], surfaces: dict[int, Surface]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Reflectance, and whether it is hard, of the surface of each piece."""
-    # The last row is for the index -1, of zones that meet nothing.
+    """Reflectance and hardness of the surface of each mesh index."""
+    # The last row is for the index -1, of zones that hit nothing.
     rows = max(surfaces, default=0) + 2
     reflectance, hard = np.ones(rows), np.zeros(rows, dtype=bool)
     for index, surface in surfaces.items():
@@ -134,7 +134,7 @@ def _looked_up(
 
 
 def _worst(states: list[NDArray[np.uint8]]) -> NDArray[np.uint8] | None:
-    """The first status of several that is not valid; None of none."""
+    """Per zone the first status that is not valid; None where the list is empty."""
     if not states:
         return None
     status = states[0]

@@ -1,4 +1,4 @@
-"""What the sensors read: rays cast into the scene, several for each zone."""
+"""Ray casting of a rig's zones into the scene, several rays per zone."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from recordings.simulation.edges import Edges, Seen, edges
+from recordings.simulation.edges import Edges, ZoneHits, edges
 from robot_assets import RayCaster, Rig, SensorModel, zone_rays
 
 _SUB_RAYS = 4  # along each side of a zone
@@ -15,18 +15,18 @@ _FAR = 1e3  # metres, in place of inf for rays that meet nothing
 
 @dataclass(frozen=True)
 class Hits:
-    """What a bundle of rays meets.
+    """Hits of a bundle of rays.
 
     Attributes:
-        distance: metres along each ray, inf where it meets nothing.
-        piece: index of the piece that it meets, -1 likewise.
+        distance: metres along each ray, inf where it hits nothing.
+        piece: index of the mesh that it hits, -1 for none.
     """
 
     distance: NDArray[np.float64]
     piece: NDArray[np.int64]
 
     def before(self, other: "Hits") -> "Hits":
-        """Per ray the nearer of two hits."""
+        """The nearer of two hits per ray."""
         nearer = self.distance <= other.distance
         return Hits(
             np.where(nearer, self.distance, other.distance),
@@ -35,7 +35,7 @@ class Hits:
 
 
 class PieceCaster:
-    """Casts rays against several pieces at once and tells which one they meet.
+    """Ray caster against several meshes at once that returns the index of the mesh hit.
 
     Args:
         pieces: {index: mesh in the fixed frame}.
@@ -43,7 +43,7 @@ class PieceCaster:
 
     def __init__(self, pieces: dict[int, trimesh.Trimesh]) -> None:
         self._caster = RayCaster(trimesh.util.concatenate(list(pieces.values())))  # type: ignore[arg-type]
-        # The last one is for rays that meet no triangle, whose index is -1.
+        # The last entry is for rays that hit no triangle, whose index is -1.
         self._piece = np.concatenate(
             [*(np.full(len(mesh.faces), index) for index, mesh in pieces.items()), [-1]]
         )
@@ -55,15 +55,15 @@ class PieceCaster:
 
 
 class ZoneRays:
-    """The rays of all zones of a rig: an even grid over each zone's footprint.
+    """Rays of all zones of a rig, an even grid over each zone's footprint.
 
     Args:
-        rig: whose sensors look.
+        rig: the sensors.
     """
 
     def __init__(self, rig: Rig) -> None:
         rays = _sub_rays(rig.model)
-        # What a depth along the optical axis is along the zone's own ray; 1 where that is not read.
+        # From depth to distance along the zone's ray; 1 for sensors that report depth.
         self._slant = 1.0 / rig.model.directions[..., 2:]
         self._lengths = np.linalg.norm(rays, axis=-1)
         self._directions = rays / self._lengths[..., None]
@@ -77,11 +77,11 @@ class ZoneRays:
         origins = np.broadcast_to(t[:, None, None, None, :], directions.shape)
         return origins.reshape(-1, 3), directions.reshape(-1, 3)
 
-    def seen(self, hits: Hits) -> Seen:
-        """What each zone sees: the piece that fills most of its footprint.
+    def seen(self, hits: Hits) -> ZoneHits:
+        """Surface that each zone measures: the mesh that fills most of its footprint.
 
-        The nearest of them where two fill as much, at the mean over the rays that meet it: the
-        sensor reports the strongest return.
+        The sensor reports the strongest return. Of equally large meshes it is the nearest; the
+        distance is the mean over the rays that hit it.
         """
         distance, piece = self._by_zone(hits)
         same = piece[..., :, None] == piece[..., None, :]
@@ -90,20 +90,20 @@ class ZoneRays:
         piece_seen = np.take_along_axis(piece, strongest, axis=-1)
         mine = piece == piece_seen
         total = np.where(mine, self._measured(distance), 0.0).sum(axis=-1)
-        return Seen(total / mine.sum(axis=-1), piece_seen[..., 0])
+        return ZoneHits(total / mine.sum(axis=-1), piece_seen[..., 0])
 
     def edges(self, hits: Hits) -> Edges:
-        """Which zones look across a step, and at what."""
+        """Depth discontinuities within zones."""
         distance, piece = self._by_zone(hits)
         return edges(self._measured(distance), piece)
 
     def _by_zone(self, hits: Hits) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Distances along the rays and pieces, both (S, rows, columns, n * n)."""
+        """Distances along the rays and mesh indices, both (S, rows, columns, n * n)."""
         shape = (-1, *self._lengths.shape)
         return hits.distance.reshape(shape), hits.piece.reshape(shape)
 
     def _measured(self, distance: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Distances along the rays as the sensor reports them of the zones."""
+        """Convert distances along the rays to those that the sensor reports for the zones."""
         return distance / self._lengths * self._slant
 
 

@@ -1,4 +1,4 @@
-"""The simulator: a scenario as the sensors of a rig see it."""
+"""Simulation of a scenario as the sensors of a rig see it."""
 
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
@@ -21,11 +21,11 @@ from robot_assets import Rig, Robot, load_rig, rig_text
 RATE = 15.0
 """Frames per second (paper, section III-A)."""
 _FIRST_STAMP = 1.0  # seconds; a stamp of 0 means "unknown" to ROS
-_OFFSET = 0.015  # metres, the most by which a trial starts elsewhere along each axis
+_OFFSET = 0.015  # metres, largest random offset of a trial's start along each axis
 RAMP = 0.25
 """Seconds of acceleration and of deceleration where there are ramps."""
 _LOST = 0.05  # share of the frames
-_JITTER, _MOST = 0.004, 0.015  # seconds: one sigma, and the most
+_JITTER, _MOST = 0.004, 0.015  # seconds: one sigma, and the largest
 
 
 def simulate(
@@ -42,22 +42,22 @@ def simulate(
     """Simulate one recording, frame by frame.
 
     Scenario, speed, trial and seed together seed one generator: the same four give the same
-    frames, bit by bit, and every other choice gives other noise and another start.
+    frames, bit by bit, and any others give other noise and another start.
 
     Args:
-        scenario: what moves.
+        scenario: to play.
         speed: m/s of the target, 0 where nothing moves.
         trial: number of the trial, from 1.
         seed: of the random numbers, 0 or more.
-        noise: how readings err.
-        imperfections: names of what else is wrong.
-        robot: a Panda that wears the sensors.
+        noise: model of the errors of readings.
+        imperfections: names of those that are switched on.
+        robot: the Panda that carries the sensors.
         rig: its sensors, on any of its links.
 
     Raises:
         ValueError: the speed is not above 0, nothing moves and it is not 0, or there is no such
             imperfection.
-        RigError: a sensor is on a link that the robot has not.
+        RigError: a sensor is on a link that the robot does not have.
     """
     rig.check_links(robot.links, robot.name)
     if scenario.still and speed != 0.0:
@@ -72,11 +72,11 @@ def simulate(
     T_link_sensor = np.stack([sensor.T_link_sensor for sensor in rig.sensors])
     static = PieceCaster({index: piece.mesh for index, piece in enumerate(scene.static)})
     surfaces = {index: piece.surface for index, piece in enumerate(scene.static)}
-    for time, said, lost in _times(scene.duration, on, streams):
+    for time, stamp, lost in _times(scene.duration, on, streams):
         links = scene.own.link_poses(time)
         T_base_sensor = np.stack([links[s.link] for s in rig.sensors]) @ T_link_sensor
         bodies = dict(enumerate(scene.bodies(time), len(scene.static)))
-        moving = PieceCaster({index: body.placed() for index, body in bodies.items()})
+        moving = PieceCaster({index: body.posed_mesh() for index, body in bodies.items()})
         bundle = rays.in_fixed(T_base_sensor)
         hits = moving.cast(*bundle).before(static.cast(*bundle))
         surfaces |= {index: body.surface for index, body in bodies.items()}
@@ -85,17 +85,17 @@ def simulate(
         if lost:
             continue
         in_sensor = report.seen.distance[..., None] * rig.model.directions
-        # Only the readings are stamped wrongly: joints and poses belong to the stamp.
-        target = scene.target(said)
+        # The stamp is wrong for the readings only; joints and poses are those at the stamp.
+        target = scene.target(stamp)
         yield Frame(
-            stamp=_FIRST_STAMP + said,
+            stamp=_FIRST_STAMP + stamp,
             ranges=report.ranges,
             status=report.status,
-            joint_positions=scene.own.joint_positions(said),
+            joint_positions=scene.own.joint_positions(stamp),
             T_base_target=target.T_fixed_body,
             target_velocity=target.rate[:3, 3],
             target_turn_rate=target.turn_rate,
-            object_poses=scene.object_poses(said),
+            object_poses=scene.object_poses(stamp),
             truth=_truth(report.valid, in_sensor, report.seen.piece, T_base_sensor, bodies),
         )
 
@@ -103,13 +103,13 @@ def simulate(
 def _times(
     duration: float, imperfections: Collection[str], streams: Streams
 ) -> Iterator[tuple[float, float, bool]]:
-    """When each frame is taken and when it says so, seconds from the start; whether it is lost."""
+    """(time, stamp, whether it is lost) of each frame, in seconds from the start."""
     jitter, loss = streams.of("stamp_jitter"), streams.of("dropped_frames")
     for k in range(int(duration * RATE) + 1):
         early_or_late = float(np.clip(_JITTER * jitter.standard_normal(), -_MOST, _MOST))
         lost = bool(loss.random() < _LOST) and "dropped_frames" in imperfections
-        said = k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0)
-        yield k / RATE, said, lost
+        stamp = k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0)
+        yield k / RATE, stamp, lost
 
 
 def _truth(
@@ -119,7 +119,7 @@ def _truth(
     T_base_sensor: NDArray[np.float64],
     bodies: dict[int, Body],
 ) -> PointTruth:
-    """Where each valid zone's surface is along its centre ray, and how it moves."""
+    """Position on the centre ray and velocity of the surface that each valid zone measured."""
     sensor, row, column = np.nonzero(valid)
     T, seen = T_base_sensor[sensor], piece[valid]
     points = np.einsum("nij,nj->ni", T[:, :3, :3], in_sensor[valid]) + T[:, :3, 3]
@@ -150,7 +150,7 @@ def write_simulation(
 
     Raises:
         RecordingError: the file cannot be written.
-        RigError: a sensor is on a link that the robot has not.
+        RigError: a sensor is on a link that the robot does not have.
     """
     imperfections = in_order(imperfections)
     with_rig = "" if rig_text(rig) == rig_text(load_rig()) else f"--rig {RIG_ATTACHMENT} "

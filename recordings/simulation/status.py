@@ -1,25 +1,25 @@
-"""The target status of a reading, and why it is not valid."""
+"""Simulation of the target status: dropouts and flying pixels."""
 
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.simulation.edges import Edges, Seen
+from recordings.simulation.edges import Edges, ZoneHits
 
 VALID, NO_TARGET = 5, 255
-# Of readings that were not valid in the core of a wooden panel, 37 : 3 : 0.8.
+# Ratio 37 : 3 : 0.8 of the codes of invalid readings, measured on the centre of a wooden panel.
 _INVALID, _SHARES = (255, 4, 2), np.array([37.0, 3.0, 0.8]) / 40.8
 
 
 def invalid_codes(shape: tuple[int, ...], rng: np.random.Generator) -> NDArray[np.uint8]:
-    """Codes of readings that are not valid, as often as they were seen."""
+    """Random codes of invalid readings, with the measured frequencies."""
     return rng.choice(np.array(_INVALID, dtype=np.uint8), shape, p=_SHARES)
 
 
 class Dropouts:
-    """Validity that persists: a chain of two states for each zone, by what the zone sees.
+    """Dropouts that persist over frames: a two-state Markov chain of validity for each zone.
 
-    Measured from frame to frame in the core of a wooden panel; targets that are easy for the
-    sensor were valid 99.9 % of the time.
+    Probabilities are measured from frame to frame on the centre of a wooden panel; on easy targets
+    readings were valid 99.9 % of the time.
 
     Args:
         rng: stream of random numbers.
@@ -28,16 +28,16 @@ class Dropouts:
     STAYS_VALID, COMES_BACK = 0.943, 0.038
     """Probabilities from frame to frame on hard surfaces: valid to valid, invalid to valid."""
     EASY = 0.999
-    """Both of them on easy surfaces."""
+    """Probability of being valid on easy surfaces."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
         self._valid: NDArray[np.bool_] | None = None
 
     def next(self, hard: NDArray[np.bool_]) -> NDArray[np.uint8]:
-        """Status (S, rows, columns) of the next frame, where each zone sees a hard surface or not.
+        """Status of the next frame, given which zones (S, rows, columns) see a hard surface.
 
-        The first frame has as many valid zones as there are in the long run.
+        The first frame is drawn from the stationary distribution.
         """
         if self._valid is None:
             settled = self.COMES_BACK / (self.COMES_BACK + 1.0 - self.STAYS_VALID)
@@ -50,11 +50,11 @@ class Dropouts:
 
 
 class FlyingPixels:
-    """What zones read that look across a step.
+    """Flying pixels: readings of zones that look across a step.
 
-    Measured beside steps of more than 0.6 m: the middle zone is valid 64 % of the time; of those
-    39 % read what is in front, 41 % what is behind, 15 % something between. The rest read what
-    fills most of the zone.
+    Measured at steps of more than 0.6 m: the zone on the step is valid 64 % of the time; of the
+    valid readings 39 % are of the surface in front, 41 % of the one behind, 15 % between. The rest
+    are of the surface that fills most of the zone.
 
     Args:
         rng: stream of random numbers.
@@ -66,10 +66,10 @@ class FlyingPixels:
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
 
-    def next(self, seen: Seen, edges: Edges) -> tuple[Seen, NDArray[np.uint8]]:
-        """What the zones read in the next frame, and its status, both (S, rows, columns).
+    def next(self, seen: ZoneHits, edges: Edges) -> tuple[ZoneHits, NDArray[np.uint8]]:
+        """Surfaces measured in the next frame, and their status, both (S, rows, columns).
 
-        A reading between two surfaces is taken to be of the one that it is nearer to.
+        A reading between two surfaces belongs to the nearer one.
         """
         shape = seen.distance.shape
         outcome, where = self._rng.random(shape), self._rng.random(shape)
@@ -87,4 +87,4 @@ class FlyingPixels:
         piece = np.where(front | (between & (where < 0.5)), edges.front.piece, seen.piece)
         piece = np.where(behind | (between & (where >= 0.5)), edges.behind.piece, piece)
         status = np.where(edges.step & ~valid, codes, VALID).astype(np.uint8)
-        return Seen(distance, piece), status
+        return ZoneHits(distance, piece), status

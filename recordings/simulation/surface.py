@@ -1,16 +1,15 @@
-"""What a surface is to a time-of-flight sensor."""
+"""Optical properties of surfaces for a time-of-flight sensor."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Surface:
-    """How a surface returns the sensor's light.
+    """Optical properties of a surface.
 
     Attributes:
-        reflectance: share of the light at 940 nm that it returns; the datasheet's white is 0.88
-            and its grey 0.17.
-        hard: whether readings of it drop out, as those of wooden panels were seen to do.
+        reflectance: at 940 nm; the datasheet's white is 0.88 and its grey 0.17.
+        hard: whether readings of it drop out, as measured on wooden panels.
     """
 
     reflectance: float

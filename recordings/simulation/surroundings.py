@@ -1,7 +1,7 @@
-"""The lab around the robots: what never moves.
+"""The lab around the robots, at rest.
 
-It matters as much as the mannequin does: without anything static in sight Algorithm 1 finds no
-clusters, and furniture within arm's reach is what a sensorised arm mostly sees.
+Algorithm 1 finds no clusters without static surroundings in view, and furniture within arm's reach
+is most of the view of a sensorised arm.
 """
 
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ _FLOOR = -0.75  # height below the robots' bases, metres
 
 @dataclass(frozen=True)
 class _Box:
-    """Middle (x, y), height of the lower side above the floor, size (x, y, z); metres."""
+    """Centre (x, y) and height of the lower face above the floor, and size (x, y, z), in metres."""
 
-    place: tuple[float, float, float]
+    position: tuple[float, float, float]
     size: tuple[float, float, float]
 
 
@@ -100,10 +100,10 @@ _FURNITURE = (
 
 
 def surroundings(pedestal: bool = True) -> list[Piece]:
-    """Everything that stands still, a closed mesh in the fixed frame for each surface.
+    """Room and furniture as closed meshes in the fixed frame.
 
     Args:
-        pedestal: whether there is that of the second robot.
+        pedestal: whether to include the second robot's pedestal.
     """
     pieces: list[Piece] = []
     for boxes, surface in _FURNITURE:
@@ -111,7 +111,7 @@ def surroundings(pedestal: bool = True) -> list[Piece]:
             continue
         for box in boxes:
             mesh = trimesh.creation.box(box.size)
-            x, y, height = box.place
+            x, y, height = box.position
             mesh.apply_translation((x, y, _FLOOR + height + box.size[2] / 2))
             pieces.append(Piece(mesh, surface))
     return pieces

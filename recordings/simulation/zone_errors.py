@@ -1,4 +1,4 @@
-"""Errors that a sensor or a zone has throughout a recording."""
+"""Systematic errors of sensors and zones, constant over a recording."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,10 +7,10 @@ _Shape = tuple[int, int, int]
 
 
 class Bias:
-    """Each sensor errs in a way of its own that does not change.
+    """Constant offset and scale error of each sensor.
 
-    Of a VL53L5CX against motion capture the scale is off by 0.5 % and the offset by some
-    millimetres; the datasheet's accuracy leaves room for twice that.
+    Against motion capture a VL53L5CX has a scale error of 0.5 % and an offset of some millimetres;
+    the datasheet's accuracy allows for twice that.
 
     Args:
         shape: sensors, rows, columns.
@@ -30,7 +30,7 @@ class Bias:
 
 
 class FixedPattern:
-    """Each zone errs by a constant: about 1 mm rms on a flat wall, up to 6 mm in the corners.
+    """Constant error of each zone: about 1 mm rms on a flat wall, up to 6 mm in the corners.
 
     Args:
         shape: sensors, rows, columns.
@@ -45,15 +45,14 @@ class FixedPattern:
         self._error = sigma * rng.standard_normal(shape)
 
     def error(self, readings: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Errors (S, rows, columns) in metres, whatever the readings are."""
+        """Errors (S, rows, columns) in metres, independent of the readings."""
         return self._error
 
 
 def border_factors(shape: _Shape, rng: np.random.Generator) -> NDArray[np.float64]:
-    """How many times as large a zone's noise is, (S, rows, columns).
+    """Noise of each zone (S, rows, columns) relative to the inner zones.
 
-    As measured on static targets: at the border 1.15 to 1.2 times that of the inner zones, at the
-    corners 1.33 to 1.47 times.
+    As measured on static targets: 1.15 to 1.2 at the border, 1.33 to 1.47 at the corners.
     """
     border = np.ones(shape[1:], dtype=bool)
     border[1:-1, 1:-1] = False
@@ -62,7 +61,7 @@ def border_factors(shape: _Shape, rng: np.random.Generator) -> NDArray[np.float6
 
 
 def corners(shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Which of (rows, columns) zones are corners."""
+    """Mask (rows, columns) of the corner zones."""
     found = np.zeros(shape, dtype=bool)
     found[np.ix_([0, -1], [0, -1])] = True
     return found

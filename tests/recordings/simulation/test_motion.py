@@ -3,10 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from recordings.simulation.glide import REST, Glide
 from recordings.simulation.motion import Motion, Swing, Translation, Turn
+from recordings.simulation.trajectory import REST, Trajectory
 
-PATH = Glide(np.array([[0.0, -1.0, 0.0]]), 0.5, ramp=0.25)
+PATH = Trajectory(np.array([[0.0, -1.0, 0.0]]), 0.5, ramp=0.25)
 WALK = Translation(np.array([0.1, 1.7, 0.4]), PATH)
 TURN = Turn(np.array([0.2, 0.7, 0.4]), np.array([0.5, 0.1, -0.3]), -0.8, PATH)
 SWING = Swing(WALK, np.array([0.2, 0.0, 0.16]), 0.3, 0.5)
@@ -31,7 +31,7 @@ def test_the_origin_of_what_turns_goes_along_a_circle_at_the_speed():
     radius = np.hypot(0.5, 0.1)
     for time in np.linspace(REST + 0.3, TURN.end - 0.3, 5):
         assert np.linalg.norm(TURN.rate(time)[:3, 3]) == pytest.approx(0.5)
-        from_axis = TURN.pose(time)[:3, 3] - TURN.place
+        from_axis = TURN.pose(time)[:3, 3] - TURN.centre
         assert np.hypot(*from_axis[:2]) == pytest.approx(radius)
     turned = TURN.pose(0.0)[:3, :3].T @ TURN.pose(9.0)[:3, :3]
     assert np.arctan2(turned[1, 0], turned[0, 0]) == pytest.approx(1.0 / radius)

@@ -3,7 +3,7 @@ from collections.abc import Collection
 import numpy as np
 import pytest
 
-from recordings.simulation.edges import Seen
+from recordings.simulation.edges import ZoneHits
 from recordings.simulation.imperfections import Streams
 from recordings.simulation.noise import NOISE_MODELS
 from recordings.simulation.sensing import Report, Sensing
@@ -26,7 +26,7 @@ def report(
     imperfections: Collection[str] = (),
 ) -> Report:
     shape = (SENSORS, 8, 8)
-    seen = Seen(np.full(shape, distance), np.zeros(shape, dtype=np.int64))
+    seen = ZoneHits(np.full(shape, distance), np.zeros(shape, dtype=np.int64))
     return sensing(noise, imperfections).report(seen, None, {0: surface})
 
 

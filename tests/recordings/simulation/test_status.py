@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from recordings.simulation.edges import Edges, Seen
+from recordings.simulation.edges import Edges, ZoneHits
 from recordings.simulation.status import VALID, Dropouts, FlyingPixels, invalid_codes
 
 SHAPE = (400, 8, 8)
@@ -42,8 +42,10 @@ def test_what_zones_across_a_step_read():
     step = np.zeros(SHAPE, dtype=bool)
     step[:, :, 4] = True
     ones = np.ones(SHAPE, dtype=np.int64)
-    seen = Seen(np.full(SHAPE, 1.0), ones)
-    edges = Edges(step, Seen(np.full(SHAPE, 0.9), ones), Seen(np.full(SHAPE, 2.0), 2 * ones))
+    seen = ZoneHits(np.full(SHAPE, 1.0), ones)
+    edges = Edges(
+        step, ZoneHits(np.full(SHAPE, 0.9), ones), ZoneHits(np.full(SHAPE, 2.0), 2 * ones)
+    )
     read, status = FlyingPixels(np.random.default_rng(0)).next(seen, edges)
     assert (status[~step] == VALID).all()
     assert (read.distance[~step] == 1.0).all()

@@ -46,7 +46,7 @@ def test_nothing_that_moves_runs_into_the_furniture_or_into_the_robot(name: str)
         bodies = scene.bodies(float(time))
         # A robot's first link stands on the furniture.
         firsts = [next((b for b in bodies if b.number == n), None) for n in (OWN_ROBOT, 3)]
-        placed = [(body.number, body.placed()) for body in bodies if body not in firsts]
+        placed = [(body.number, body.posed_mesh()) for body in bodies if body not in firsts]
         for piece in scene.static:
             assert not any(inside(mesh.vertices, piece.mesh).any() for _, mesh in placed)
         own = np.concatenate([mesh.vertices for number, mesh in placed if number == OWN_ROBOT])

@@ -1,4 +1,4 @@
-"""A pure translation along a path of straight pieces, between two rests."""
+"""Translation along a polyline, with a rest before and after."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,24 +7,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 REST = 0.7
-"""Seconds of rest before and after a motion: longer than the eight frames of the paper's pair."""
+"""Seconds of rest before and after a motion, longer than the paper's n = 8 frames."""
 
 
 @dataclass(frozen=True)
-class Glide:
-    """Rest, then constant speed along the path, then rest.
+class Trajectory:
+    """Rest, then constant speed along a polyline, then rest.
 
-    Without ramps the speed jumps at both ends, as if the arm had no inertia: every frame of the
-    motion has the commanded speed, and every stop is sharp.
+    Without ramps the speed jumps at both ends, as if the arm had no inertia, and every frame of
+    the motion has the commanded speed.
 
     Attributes:
-        pieces: (P, 3) metres, the displacements that are added one after the other.
+        segments: (P, 3) metres, displacements along the polyline's segments.
         speed: m/s along the path.
-        ramp: seconds of constant acceleration from rest to the speed, and of deceleration back; on
-            a path that is too short for both the acceleration is the same and the speed lower.
+        ramp: seconds of constant acceleration from rest to the speed, and of deceleration; on a
+            path that is too short for both, the acceleration is the same and the speed lower.
     """
 
-    pieces: NDArray[np.float64]
+    segments: NDArray[np.float64]
     speed: float
     ramp: float = 0.0
 
@@ -34,19 +34,19 @@ class Glide:
 
     @cached_property
     def length(self) -> float:
-        """Metres of the whole path."""
-        return float(np.linalg.norm(self.pieces, axis=1).sum())
+        """Length of the path in metres."""
+        return float(np.linalg.norm(self.segments, axis=1).sum())
 
     @cached_property
     def _share(self) -> float:
-        """Share of the ramp for which the path has room, which is that of the speed, too."""
+        """Share of the ramp, and so of the speed, that the length of the path allows."""
         if self.length >= self.speed * self.ramp:
             return 1.0
         return float(np.sqrt(self.length / (self.speed * self.ramp)))
 
     @property
     def end(self) -> float:
-        """Seconds at which the motion is over."""
+        """Seconds at which the motion ends."""
         return REST + self.length / (self._share * self.speed) + self._share * self.ramp
 
     def moves(self, time: float) -> bool:
@@ -74,16 +74,16 @@ class Glide:
         return self.speed * (gone - 0.5 * ramp)
 
     def displacement(self, travelled: float) -> NDArray[np.float64]:
-        """Displacement (3,) in metres after so many metres of the path."""
-        lengths = np.linalg.norm(self.pieces, axis=1)
+        """Displacement (3,) in metres after `travelled` metres of the path."""
+        lengths = np.linalg.norm(self.segments, axis=1)
         before = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
         shares = np.clip((travelled - before) / lengths, 0.0, 1.0)
-        return shares @ self.pieces
+        return shares @ self.segments
 
     def velocity(self, time: float) -> NDArray[np.float64]:
         """Velocity (3,) in m/s at `time`, zero at rest."""
         if not self.moves(time):
             return np.zeros(3)
-        ends = np.cumsum(np.linalg.norm(self.pieces, axis=1))
-        piece = self.pieces[min(int(np.searchsorted(ends, self.travelled(time))), len(ends) - 1)]
+        ends = np.cumsum(np.linalg.norm(self.segments, axis=1))
+        piece = self.segments[min(int(np.searchsorted(ends, self.travelled(time))), len(ends) - 1)]
         return self.speed_at(time) * piece / np.linalg.norm(piece)
