@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _LOG.exception("Unexpected error.")
         print(
             f"tofscope {options.command}: something unexpected went wrong "
-            f"({type(error).__name__}: {error}); please report it with the lines above.",
+            f"({type(error).__name__}: {printable(str(error))}); please report it with the lines above.",
             file=sys.stderr,
         )
         return 1
