@@ -58,9 +58,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     except Exception as error:
         _LOG.exception("Unexpected error.")
+        said = printable(f"{type(error).__name__}: {error}")
         print(
-            f"tofscope {options.command}: something unexpected went wrong "
-            f"({type(error).__name__}: {printable(str(error))}); please report it with the lines above.",
+            f"tofscope {options.command}: something unexpected went wrong ({said}); please report "
+            "it with the lines above.",
             file=sys.stderr,
         )
         return 1

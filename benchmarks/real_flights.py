@@ -11,7 +11,7 @@ from itertools import count, product
 from pathlib import Path
 from typing import Any
 
-from app.analysis.evaluation import evaluate
+from app.analysis.evaluation import EvaluationCase, evaluate_all
 from app.analysis.parameter_files import to_text
 from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
@@ -96,7 +96,8 @@ def _rank(score: tuple[float, float]) -> tuple[float, float]:
 
 def _metrics(recording: Recording, parameters: Parameters) -> Metrics:
     # In the sensor's frame almost every pair counts, in the world's none does.
-    metrics = evaluate(recording, parameters, with_resting=recording.fixed_frame == WORLD)
+    case = EvaluationCase(parameters, resting=recording.fixed_frame == WORLD)
+    metrics = evaluate_all(recording, [case])[0].metrics
     if metrics is None:
         raise ValueError(f"{recording.path} has no {PANEL}.")
     return metrics
