@@ -1,5 +1,7 @@
 """Flow of every pair, in any order: pure methods, and trackers over fixed segments."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -11,8 +13,9 @@ from app.analysis.evaluation import Ask, evaluate, evaluate_all
 from app.analysis.pair_estimator import SEGMENT, PairEstimator
 from app.analysis.pairs import prepare_pair
 from estimator import Method, Parameters, SceneFlow, Window, register, scene_flow_of_points
-from recordings import RecordingError, open_recording, sample_paths
+from recordings import RecordingError, open_recording
 from tests.app.fake_recordings import fake_opened, fake_recording
+from tests.recordings.room import write_room
 
 N, WARM_UP, FRAMES = 2, 3, 2 * SEGMENT + 30
 
@@ -108,9 +111,14 @@ def test_before_the_start_there_is_no_flow(tracked, recording):
     assert (pair.source, pair.flow) == (None, None)
 
 
-def test_flows_are_what_evaluate_pools():
-    path, parameters = sample_paths()[0], Parameters()
-    with open_recording(path) as recording:
+@pytest.fixture(scope="module")
+def room(tmp_path_factory) -> Path:
+    return write_room(tmp_path_factory.mktemp("room") / "room.mcap", frames=14).path
+
+
+def test_flows_are_what_evaluate_pools(room):
+    parameters = Parameters()
+    with open_recording(room) as recording:
         metrics = evaluate(recording, parameters)
         assert metrics is not None
         counted = sum(
@@ -121,8 +129,7 @@ def test_flows_are_what_evaluate_pools():
         assert counted == metrics.points_with_flow > 0
 
 
-def test_methods_asked_together_give_what_each_gives_alone():
-    path = sample_paths()[0]
+def test_methods_asked_together_give_what_each_gives_alone(room):
     asks = [
         Ask(Parameters(method="baseline")),
         Ask(Parameters()),
@@ -130,7 +137,7 @@ def test_methods_asked_together_give_what_each_gives_alone():
         Ask(Parameters(delta=0.08)),
         Ask(Parameters()),
     ]
-    with open_recording(path) as recording:
+    with open_recording(room) as recording:
         together = evaluate_all(recording, asks)
         for ask, found in zip(asks, together, strict=True):
             alone = evaluate_all(recording, [ask])[0]
