@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, BrowserContext, sync_playwright
 
-from app.analysis.estimates import Estimates
+from app.analysis.estimates import Estimates, warm_up
 from app.analysis.library import Library
 from app.server.server import Server
 from app.server.session import Shared
@@ -60,13 +60,20 @@ def recordings_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def estimates() -> Estimates:
+    """What one test has computed of the samples, another finds there."""
+    warm_up()  # so that no test's page waits for it
+    return Estimates()
+
+
 @pytest.fixture
 def server(
-    recordings_folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    recordings_folder: Path, estimates: Estimates, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Server]:
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     library = Library([recordings_folder], open_recording)
-    server = Server(Shared(library, Estimates(), Reloads(), Parameters()), "127.0.0.1", 0)
+    server = Server(Shared(library, estimates, Reloads(), Parameters()), "127.0.0.1", 0)
     yield server
     server.close()
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from playwright.sync_api import BrowserContext, Locator
+from playwright.sync_api import BrowserContext, Locator, Page
 
 from app.scene.stage import FIXED
 
@@ -23,6 +23,14 @@ _POSES = """names => names.map(name => {
 })"""
 
 
+def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> None:
+    """Wait until something holds in a page."""
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "it did not come true in time"
+        page.wait_for_timeout(50)
+
+
 class Tab:
     """One browser tab that shows the app."""
 
@@ -32,11 +40,8 @@ class Tab:
         self.page.wait_for_selector("canvas[data-engine]")
         self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)
 
-    def until(self, condition: Callable[[], Any], timeout: float = 10.0) -> None:
-        end = time.monotonic() + timeout
-        while not condition():
-            assert time.monotonic() < end, "it did not come true in time"
-            self.page.wait_for_timeout(50)
+    def until(self, condition: Callable[[], Any]) -> None:
+        until(self.page, condition)
 
     def has_text(self, text: str) -> bool:
         return self.page.get_by_text(text).count() > 0

@@ -1,5 +1,7 @@
 """Flow of every pair, in any order: pure methods, and trackers over fixed segments."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -9,8 +11,9 @@ from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
 from app.analysis.pair_estimator import SEGMENT, PairEstimator
 from app.analysis.pairs import prepare_pair
 from estimator import Method, Parameters, SceneFlow, Window, register, scene_flow_of_points
-from recordings import RecordingError, open_recording, sample_paths
+from recordings import RecordingError, open_recording
 from tests.app.fake_recordings import fake_opened, fake_recording
+from tests.recordings.room import write_room
 
 N, WARM_UP, FRAMES = 2, 3, 2 * SEGMENT + 30
 
@@ -104,9 +107,14 @@ def test_before_the_start_there_is_no_flow(tracked, recording):
     assert (pair.source, pair.flow) == (None, None)
 
 
-def test_flows_are_what_evaluate_pools():
-    path, parameters = sample_paths()[0], Parameters()
-    with open_recording(path) as recording:
+@pytest.fixture(scope="module")
+def room(tmp_path_factory) -> Path:
+    return write_room(tmp_path_factory.mktemp("room") / "room.mcap", frames=14).path
+
+
+def test_flows_are_what_evaluate_pools(room):
+    parameters = Parameters()
+    with open_recording(room) as recording:
         metrics = evaluate(recording, parameters)
         assert metrics is not None
         counted = sum(
@@ -117,8 +125,7 @@ def test_flows_are_what_evaluate_pools():
         assert counted == metrics.points_with_flow > 0
 
 
-def test_methods_asked_together_give_what_each_gives_alone():
-    path = sample_paths()[0]
+def test_methods_asked_together_give_what_each_gives_alone(room):
     cases = [
         EvaluationCase(Parameters(method="baseline")),
         EvaluationCase(Parameters()),
@@ -126,7 +133,7 @@ def test_methods_asked_together_give_what_each_gives_alone():
         EvaluationCase(Parameters(delta=0.08)),
         EvaluationCase(Parameters()),
     ]
-    with open_recording(path) as recording:
+    with open_recording(room) as recording:
         together = evaluate_all(recording, cases)
         for case, found in zip(cases, together, strict=True):
             alone = evaluate_all(recording, [case])[0]

@@ -7,8 +7,9 @@ from app.analysis.estimates import Estimates
 from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
 from app.analysis.survey import Survey, coarse_to_fine
 from estimator import Parameters
-from recordings import PairTruth, RecordingError, open_recording, sample_paths
+from recordings import PairTruth, RecordingError, open_recording
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
+from tests.recordings.room import write_room
 
 
 def filled(opened, parameters, estimates=None):
@@ -39,8 +40,8 @@ def test_every_frame_of_a_patch_that_moves():
 
 
 @pytest.mark.parametrize("parameters", [Parameters(), Parameters(n=5, gamma=0.6)])
-def test_the_summary_is_what_evaluate_says_to_the_last_bit(parameters):
-    path = next(path for path in sample_paths() if "robot_moving" in path.name)
+def test_the_summary_is_what_evaluate_says_to_the_last_bit(parameters, tmp_path):
+    path = write_room(tmp_path / "room.mcap", frames=16).path
     with open_recording(path) as recording:
         survey = filled(fake_opened(recording), parameters)
         assert survey.summary() == evaluate(recording, parameters)

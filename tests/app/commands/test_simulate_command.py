@@ -5,9 +5,26 @@ import pytest
 
 from app.command_line import main
 from recordings import open_recording
-from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, SCENARIOS
+from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, SCENARIOS, Scenario
 
 QUICK = ["--speed", "1", "--trial", "2", "--noise", "none"]
+
+
+Asked = list[tuple[str, float, int]]
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Asked:
+    """Scenario, speed and trial of each recording that is asked for; none is simulated."""
+    found: Asked = []
+
+    def write(path: Path, scenario: Scenario, *, speed: float, trial: int, **_: object) -> int:
+        path.touch()
+        found.append((scenario.name, speed, trial))
+        return 1
+
+    monkeypatch.setattr("app.commands.simulate.write_simulation", write)
+    return found
 
 
 def made(folder: Path) -> list[str]:
@@ -30,14 +47,12 @@ def test_a_file_for_one_recording(tmp_path: Path, capsys: pytest.CaptureFixture[
         assert source.noise.startswith("none")
 
 
-def test_a_file_without_speed_and_trial_is_one_recording(tmp_path: Path):
-    out = tmp_path / "mine.mcap"
-    assert main(["simulate", "towards", "--noise", "none", "--out", str(out)]) == 0
-    with open_recording(out) as recording:
-        assert recording.provenance is not None
-        assert (recording.provenance.speed, recording.provenance.trial) == (0.25, 1)
+def test_a_file_without_speed_and_trial_is_one_recording(tmp_path: Path, asked: Asked):
+    assert main(["simulate", "towards", "--out", str(tmp_path / "mine.mcap")]) == 0
+    assert asked == [("towards", 0.25, 1)]
 
 
+@pytest.mark.usefixtures("asked")
 def test_a_folder_for_several(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     out = tmp_path / "new" / "folder"
     assert main(["simulate", "all", *QUICK, "--out", str(out)]) == 0
@@ -45,15 +60,19 @@ def test_a_folder_for_several(tmp_path: Path, capsys: pytest.CaptureFixture[str]
     assert len(capsys.readouterr().out.splitlines()) == 3
 
 
-def test_each_scenario_has_its_own_speeds(tmp_path: Path):
-    arguments = ["still", "crossing", "--trial", "1", "--noise", "none", "--out", str(tmp_path)]
+def test_each_scenario_has_its_own_speeds(tmp_path: Path, asked: Asked):
+    arguments = ["still", "crossing", "--trial", "1", "--out", str(tmp_path)]
     assert main(["simulate", *arguments]) == 0
+    assert asked == [("still", 0.0, 1), ("crossing", 0.25, 1), ("crossing", 0.5, 1)]
     assert made(tmp_path) == ["crossing_0.25_1.mcap", "crossing_0.50_1.mcap", "still_0.00_1.mcap"]
 
 
-def test_where_nothing_moves_the_speed_that_is_asked_for_is_for_the_others(tmp_path: Path):
-    arguments = ["still", "fast", "--speed", "2", "--trial", "1", "--noise", "none"]
+def test_where_nothing_moves_the_speed_that_is_asked_for_is_for_the_others(
+    tmp_path: Path, asked: Asked
+):
+    arguments = ["still", "fast", "--speed", "2", "--trial", "1"]
     assert main(["simulate", *arguments, "--out", str(tmp_path)]) == 0
+    assert asked == [("still", 0.0, 1), ("fast", 2.0, 1)]
     assert made(tmp_path) == ["fast_2.00_1.mcap", "still_0.00_1.mcap"]
 
 
@@ -142,9 +161,10 @@ def test_a_rig_that_cannot_be_used_is_one_sentence_and_nothing_is_made(
     assert made(tmp_path) == ["mine.toml"]
 
 
-def test_all_combinations_once(tmp_path: Path):
+def test_all_combinations_once(tmp_path: Path, asked: Asked):
     arguments = ["towards", "towards", "--speed", "1", "0.875", "1", "--trial", "1", "2"]
-    assert main(["simulate", *arguments, "--noise", "none", "--out", str(tmp_path)]) == 0
+    assert main(["simulate", *arguments, "--out", str(tmp_path)]) == 0
+    assert len(asked) == 4
     assert made(tmp_path) == [
         "towards_0.875_1.mcap",
         "towards_0.875_2.mcap",

@@ -163,8 +163,12 @@ def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixtu
 def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
     tmp_path: Path, stop: Callable[[subprocess.Popen[str]], None]
 ):
-    scratch = tmp_path / "scratch"
+    scratch, given = tmp_path / "scratch", tmp_path / "given"
     scratch.mkdir()
+    given.mkdir()
+    # The first is finished soon, while the others still go on.
+    for name, frames in (("a", 10), ("b", 60), ("c", 60)):
+        write_room(given / f"{name}.mcap", frames, seed=ord(name))
     command = [
         *(sys.executable, "-c", "import sys; from app.command_line import main; sys.exit(main())"),
         *(
@@ -173,14 +177,12 @@ def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
             str(tmp_path),
             "--jobs",
             "2",
-            "--speed",
-            "0.3",
-            "--trial",
-            "1",
-            "2",
-            "3",
+            "--recordings",
+            str(given),
+            "--sweep",
+            "--method",
+            "baseline",
         ),
-        *("--scenario", "towards", "--sweep", "--method", "baseline"),
     ]
     environment = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)}
     process = subprocess.Popen(
@@ -193,10 +195,11 @@ def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
         start_new_session=True,
     )
     results = tmp_path / "results"
-    until(lambda: list(results.glob("*.json")), timeout=180)
+    # Three processes start first, and load all that an estimate needs.
+    until(lambda: list(results.glob("*.json")), timeout=60)
     assert list(scratch.glob("tofscope-study-*"))
     stop(process)
-    _, said = process.communicate(timeout=30)
+    _, said = process.communicate(timeout=10)
     assert process.returncode == 130
     assert not list(scratch.glob("tofscope-study-*"))
     until(lambda: not _running(process.pid), timeout=10)

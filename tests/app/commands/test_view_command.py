@@ -92,7 +92,7 @@ def test_it_says_where_it_is_and_ends_quietly(tmp_path, number):
     with urllib.request.urlopen(address, timeout=10) as page:
         assert page.status == 200
     app.send_signal(number)
-    out, err = app.communicate(timeout=20)
+    out, err = app.communicate(timeout=10)
     assert app.returncode == 0
     assert (out, err) == ("", "")
 
@@ -124,7 +124,7 @@ def test_a_signal_that_reaches_another_thread_ends_it_too(tmp_path):
     assert app.stdout.readline().startswith("Tofscope is at")
     time.sleep(2.0)  # by now it does nothing but wait
     try:
-        app.communicate("now\n", timeout=30)
+        app.communicate("now\n", timeout=10)
     finally:
         app.kill()
     assert app.returncode == 0
@@ -140,7 +140,7 @@ def test_serving_to_everybody_is_warned_of(tmp_path):
     assert app.stdout is not None
     assert app.stdout.readline().startswith("Tofscope is at http://127.0.0.1:")
     app.send_signal(signal.SIGINT)
-    _, err = app.communicate(timeout=20)
+    _, err = app.communicate(timeout=10)
     assert err.startswith("Warning: at 0.0.0.0 everybody")
     assert "change and delete the presets" in err
     assert "nothing is encrypted" in err

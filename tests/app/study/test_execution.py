@@ -64,7 +64,7 @@ def scheduler(tmp_path: Path) -> Iterator[str]:
             start("worker", "--nthreads", "1", "--no-nanny", "--host", "127.0.0.1")
         address = json.loads(file.read_text())["address"]
         with distributed.Client(address, set_as_default=False) as client:
-            client.wait_for_workers(2, timeout=120)
+            client.wait_for_workers(2, timeout=10)
         yield address
 
 
@@ -76,8 +76,9 @@ def test_a_dask_cluster_gives_what_one_core_gives(one_core: list[Row], scheduler
     assert rows(1, scheduler) == one_core
 
 
-def test_a_scheduler_that_is_not_there_is_said():
+def test_a_scheduler_that_is_not_there_is_said(monkeypatch: pytest.MonkeyPatch):
     pytest.importorskip("distributed", reason="distributed is not installed")
+    monkeypatch.setattr("app.study.execution._PATIENCE", 1)
     with pytest.raises(InputError, match=r"no Dask scheduler at tcp://127\.0\.0\.1:9"):
         list(outcomes(WORKS, 1, "tcp://127.0.0.1:9"))
 
