@@ -52,9 +52,9 @@ def object_truth(
     for use, read in ((Use.VELOCITY, _by_twist), (Use.POSE, _by_pose)):
         for topic in topics:
             if topic.use is use:
-                truth, said = read(topic, decoder, stamps, tree, fixed_frame)
-                warnings += said
-                if isinstance(truth, TwistTruth) and truth.turns:
+                truth, more = read(topic, decoder, stamps, tree, fixed_frame)
+                warnings += more
+                if isinstance(truth, TwistTruth) and truth.rotates:
                     truth = _with_pose(truth, topics, decoder, stamps, tree, fixed_frame)
                 if truth is not None:
                     if not named_truth(topic.name):
@@ -124,12 +124,12 @@ def _by_twist(
 ) -> tuple[ObjectTruth | None, list[str]]:
     times: list[int] = []
     values: list[tuple[float, float, float]] = []
-    turns = False
+    rotates = False
     for message in decoder.messages(topic.channel):
         linear, angular = message.twist.linear, message.twist.angular
         times.append(stamp_of(message))
         values.append((linear.x, linear.y, linear.z))
-        turns |= max(abs(angular.x), abs(angular.y), abs(angular.z)) > _TURNING
+        rotates |= max(abs(angular.x), abs(angular.y), abs(angular.z)) > _TURNING
     velocity = np.array(values)
     warnings: list[str] = []
     if topic.frame not in ("", fixed_frame):
@@ -152,7 +152,7 @@ def _by_twist(
     track = vector_track(np.array(times, dtype=np.int64), velocity)
     if track is None:
         return None, [f"{topic.name} has no finite velocity."]
-    return TwistTruth(track, stamps, turns), warnings
+    return TwistTruth(track, stamps, rotates), warnings
 
 
 def _by_pose(

@@ -111,8 +111,8 @@ def _open(
 
     names = joint_names(topics, file, decoder)
     if robot is None:
-        robot, said = recorded_robot(topics, decoder, names)
-        warnings += said
+        robot, more = recorded_robot(topics, decoder, names)
+        warnings += more
     if robot is not None and (missing := robot.missing_meshes):
         count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
         warnings.append(
@@ -130,21 +130,21 @@ def _open(
     if robot is None:
         fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, None, {})
     else:
-        match, said = matched(robot, names)
+        match, more = matched(robot, names)
         in_tree = link_frames(robot, match.prefix, tree.frames)
         fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, robot, in_tree)
         positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
-        warnings += said + doubled + beyond_limits(robot, positions)
+        warnings += more + doubled + beyond_limits(robot, positions)
         placed = [link for link, frame in in_tree.items() if frame in tree.frames]
         warnings += unknown_joints(robot, positions, placed)
         robot_poses = RobotPoses(robot, positions, tree, fixed, in_tree)
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
     warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
 
-    truth, said = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
-    warnings += said
-    points, said = point_truths(topics, decoder, table, tree, fixed)
-    warnings += said
+    truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
+    warnings += more
+    points, more = point_truths(topics, decoder, table, tree, fixed)
+    warnings += more
     return Recording(
         Parts(
             file=file,
@@ -180,9 +180,9 @@ def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
 
 
 def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
-    shown = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
-    more = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
-    held = f"it holds {', '.join(shown)}{more}" if topics else "it holds no topics"
+    listed = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
+    others = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
+    held = f"it holds {', '.join(listed)}{others}" if topics else "it holds no topics"
     return (
         f"{file.path} has no depth images of {SIZES}, so there is nothing to estimate from; {held}."
     )

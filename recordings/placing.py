@@ -11,7 +11,7 @@ from robot_assets import Rig, Robot, Sensor
 
 
 def chosen_fixed_frame(
-    asked: str | None,
+    chosen: str | None,
     file: McapFile,
     tree: TransformTree,
     frames: list[str],
@@ -21,7 +21,7 @@ def chosen_fixed_frame(
     """Choose the frame of clouds and truth.
 
     Args:
-        asked: the user's choice; None for the root above most sensors, or the robot's base.
+        chosen: the user's choice; None for the root above most sensors, or the robot's base.
         file: of the recording.
         tree: poses of /tf.
         frames: of the sensors.
@@ -35,11 +35,11 @@ def chosen_fixed_frame(
         RecordingError: there is no such frame, or the sensors have no poses relative to each other.
     """
     known = tree.frames | set(frames) | set(link_frames) | set(link_frames.values())
-    if asked is not None:
-        if asked not in known:
+    if chosen is not None:
+        if chosen not in known:
             listed = [*sorted(known - set(frames)), *sorted(frames, key=natural_key)]
-            raise RecordingError(f"{file.path} has no frame {asked}; it has {few(listed)}.")
-        return asked if asked in tree.frames else link_frames.get(asked, asked)
+            raise RecordingError(f"{file.path} has no frame {chosen}; it has {few(listed)}.")
+        return chosen if chosen in tree.frames else link_frames.get(chosen, chosen)
     in_tree = [frame for frame in frames if frame in tree.frames]
     if in_tree:
         roots = [tree.root_of(frame) for frame in in_tree]
@@ -95,11 +95,11 @@ def unplaced_sensors(
     warnings += _on_one_spot(found, tree, fixed, by_rig)
     if rig is None:
         return warnings
-    if strangers := [t.name for t, _, in_rig in found if in_rig is None]:
-        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
+    if unmatched := [t.name for t, _, in_rig in found if in_rig is None]:
+        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(unmatched)}.")
     there = {in_rig.name for _, _, in_rig in found if in_rig is not None}
-    if absent := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
-        warnings.append(f"No topic belongs to {few(absent)} of the rig '{rig.name}'.")
+    if missing := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
+        warnings.append(f"No topic belongs to {few(missing)} of the rig '{rig.name}'.")
     return warnings
 
 

@@ -29,11 +29,11 @@ def recorded_robot(
             return None, [str(error)]
         return robot, []
     panda = load_robot()
-    match, said = matched(panda, joints)
+    match, more = matched(panda, joints)
     arm = [joint for joint in panda.joint_names if "finger" not in joint]
     if set(arm) <= set(match.joints.values()):
         return panda, []
-    return None, said if match.rivals else []
+    return None, more if match.rivals else []
 
 
 def link_frames(robot: Robot, prefix: str | None, frames: Collection[str]) -> dict[str, str]:

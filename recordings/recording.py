@@ -78,7 +78,7 @@ class Recording:
         self.provenance = parts.provenance
         self.rig: Rig | None = parts.rig
         self.duplicates = parts.frames.duplicates
-        self._said: dict[str, None] = dict.fromkeys(parts.warnings)
+        self._warnings: dict[str, None] = dict.fromkeys(parts.warnings)
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
         # The point in the optical frame is the reading times its ray.
         self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
@@ -97,7 +97,7 @@ class Recording:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Messages about unusable parts; reading further frames may add some."""
-        return tuple(self._said)
+        return tuple(self._warnings)
 
     @property
     def has_truth(self) -> bool:
@@ -251,5 +251,5 @@ class Recording:
             return readings(image, status, stream.sensor), codes
         except RecordingError as error:
             # One bad image does not cost the frame; only this sensor is left out.
-            self._said[f"{stream.topic.name}: {error} Such images are left out."] = None
+            self._warnings[f"{stream.topic.name}: {error} Such images are left out."] = None
             return np.full(stream.sensor.grid, np.nan), None

@@ -45,14 +45,14 @@ class TwistTruth:
     Args:
         track: velocity in the fixed frame.
         stamps: (K,) nanoseconds of the frames.
-        turns: whether the recorded twist has an angular velocity.
+        rotates: whether the recorded twist has an angular velocity.
 
     Attributes:
-        turns: as given.
+        rotates: as given.
     """
 
-    def __init__(self, track: VectorTrack, stamps: Stamps, turns: bool = False) -> None:
-        self.turns = turns
+    def __init__(self, track: VectorTrack, stamps: Stamps, rotates: bool = False) -> None:
+        self.rotates = rotates
         self._track, self._stamps = track, stamps
         self._at_frames = track.at(stamps)
 
