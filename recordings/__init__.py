@@ -1,4 +1,4 @@
-"""What the robot saw: MCAP recordings in and out, simulated ones, and the shipped samples."""
+"""Recordings: reading, writing and simulating MCAP files, and the shipped samples."""
 
 from recordings.cloud import Cloud
 from recordings.errors import RecordingError

@@ -1,4 +1,4 @@
-"""The cloud of one frame, and where its points came from."""
+"""Point cloud of one frame, with the rays that its points were measured along."""
 
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -9,25 +9,25 @@ from numpy.typing import NDArray
 _Array = TypeVar("_Array", bound=NDArray[Any])
 
 NO_STATUS = 255
-"""ST's status of a zone without a target; also that of a zone of which no status was recorded."""
+"""ST's status of a zone without a target; also used where no status was recorded."""
 
 
 @dataclass(frozen=True)
 class Cloud:
-    """The points that the sensors saw at one frame, and their rays; its arrays are read-only.
+    """Points that the sensors measured at one frame, and their rays; arrays are read-only.
 
-    R and C are the most rows and columns that any sensor of the recording has. A sensor with fewer
-    lies in the first of them; beyond its own grid its directions are NaN. A zone with a direction
-    and without a range looked, and there was no return, or none that is valid.
+    R and C are the largest numbers of rows and columns of any sensor of the recording. A smaller
+    sensor fills the first of them; its directions beyond are NaN. A zone with a direction and
+    without a range had no valid return.
 
     Attributes:
         points: (N, 3) metres in the fixed frame.
-        sensor: (N,) index of the sensor that saw each point.
+        sensor: (N,) index of each point's sensor.
         zone: (N,) index of its zone, row * C + column.
         directions: (S, R, C, 3) unit vectors along the zones' rays in each sensor's optical frame,
             NaN beyond its grid.
-        ranges: (S, R, C) metres along the optical axis, NaN where there is no return; readings of
-            the robot itself and beyond `max_range` are still in here.
+        ranges: (S, R, C) metres along the optical axis, NaN without a valid return; readings of
+            the robot itself and beyond `max_range` are included.
         T_fixed_sensor: (S, 4, 4), NaN where unknown.
         stamp: seconds.
         status: (S, R, C) ST's target status as recorded, 255 where a sensor has none at this frame
@@ -50,13 +50,13 @@ class Reading:
 
     Attributes:
         stamp: seconds.
-        directions: as of a cloud, likewise `ranges`, `status` and `T_fixed_sensor`.
+        directions: as in `Cloud`, likewise `ranges`, `status` and `T_fixed_sensor`.
         ranges: (S, R, C) metres.
         status: (S, R, C), or None.
         T_fixed_sensor: (S, 4, 4).
         points: (S, R, C, 3) metres in the fixed frame, NaN where invalid or unknown.
         distance: (S, R, C) metres along the zone's ray.
-        visible: (S, R, C) whether a reading is valid, placed, and not the robot itself.
+        visible: (S, R, C) whether a reading is valid, of a known pose, and not the robot itself.
     """
 
     stamp: float
@@ -69,7 +69,7 @@ class Reading:
     visible: NDArray[np.bool_]
 
     def cloud(self, max_range: float) -> Cloud:
-        """The cloud of the visible readings no further than `max_range` along their rays."""
+        """Cloud of the visible readings up to `max_range` metres along their rays."""
         kept = self.visible & (self.distance <= max_range)
         sensor, row, column = np.nonzero(kept)
         return Cloud(
@@ -85,6 +85,6 @@ class Reading:
 
 
 def read_only(values: _Array) -> _Array:
-    """The same array, which can no longer be written to: clouds are shared between threads."""
+    """Make an array read-only and return it; clouds are shared between threads."""
     values.setflags(write=False)
     return values

@@ -1,4 +1,4 @@
-"""What each topic of a file is used as: decided by type and content, names are hints."""
+"""Uses of a file's topics, decided by type and content; names are hints."""
 
 import math
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ _TRUTH_NAMES = ("target", "truth")
 
 
 class Use(StrEnum):
-    """What a topic is used as."""
+    """Use of a topic."""
 
     DEPTH = "sensor ranges"
     STATUS = "sensor status"
@@ -43,10 +43,10 @@ class Topic:
 
     Attributes:
         channel: of the file.
-        use: what it is used as.
-        why_not: why it is not used, "" where it is.
+        use: of the topic.
+        why_not: reason why it is not used, "" where it is.
         frame: frame_id of its first message, "" where its type has no header.
-        candidate: whether it could be the truth, and which of several is unclear.
+        candidate: whether it is one of several topics that could be the truth.
         grid: size of its first image, or of the images that its intrinsics are for.
     """
 
@@ -64,7 +64,7 @@ class Topic:
 
 
 def topics_of(file: McapFile, decoder: Decoder) -> list[Topic]:
-    """Decide for every channel of a file what it is used as, in the natural order of topics."""
+    """Find the use of every channel of a file, in the natural order of topics."""
     channels = sorted(file.channels, key=lambda c: natural_key(c.topic))
     topics = [_topic(channel, file, decoder) for channel in channels]
     for use in (Use.VELOCITY, Use.POSE, Use.POINTS):
@@ -78,7 +78,7 @@ def parent(topic: str) -> str:
 
 
 def _status_beside_ranges(topics: list[Topic]) -> list[Topic]:
-    """Use no image of bytes as a status where there are no ranges that it could be of."""
+    """Reject status images without ranges of the same size beside them."""
     ranges = {(parent(topic.name), topic.grid) for topic in topics if topic.use is Use.DEPTH}
     why_not = "there are no ranges of its size beside it"
     return [
@@ -90,7 +90,7 @@ def _status_beside_ranges(topics: list[Topic]) -> list[Topic]:
 
 
 def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
-    """Keep one topic for a use: the one named as truth, or the only one that there is."""
+    """Keep one topic for a use: the one named as truth, or the only one."""
     candidates = [topic for topic in topics if topic.use is use]
     named = [topic for topic in candidates if named_truth(topic.name)]
     if len(candidates) == 1 or len(named) == 1:
@@ -108,7 +108,7 @@ def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
 
 
 def natural_key(text: str) -> list[tuple[int, int, str]]:
-    """Sort key that puts "ring/10" behind "ring/9"."""
+    """Sort key that puts "ring/10" after "ring/9"."""
     key: list[tuple[int, int, str]] = []
     for digit, run in _runs(text):
         key.append((0, int(run), "") if digit else (1, 0, run))
@@ -184,7 +184,7 @@ def _text(topic: str, message: Any) -> Use | str:  # noqa: ANN401
 
 
 def _pose(topic: str, message: Any) -> Use | str:  # noqa: ANN401
-    # Robots publish poses of many things; only a name can tell that one is the truth.
+    # Robots publish poses of many things; only the name identifies the truth.
     return Use.POSE if named_truth(topic) else "its name does not say that it is the truth"
 
 

@@ -1,4 +1,4 @@
-"""From the bytes of a message to its fields: ROS 2's CDR, by the schema in the file."""
+"""Decoding of ROS 2 messages (CDR) by the schemas in the file."""
 
 import struct
 import threading
@@ -16,10 +16,10 @@ from recordings.stamp_index import STAMP_INDEX, unpack
 
 
 class Decoder:
-    """Decodes the messages of one file.
+    """Decoder of the messages of one file.
 
     Args:
-        file: whose channels' schemas are used.
+        file: of the channels and their schemas.
     """
 
     def __init__(self, file: McapFile) -> None:
@@ -31,11 +31,11 @@ class Decoder:
         self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""))
 
     def can_decode(self, channel: ChannelInfo) -> bool:
-        """Whether messages of this channel are in an encoding that is read here."""
+        """Whether the encoding of a channel's messages is supported."""
         return channel.encoding == "cdr" and channel.schema_encoding in ("ros2msg", "ros2idl")
 
     def decode(self, channel: ChannelInfo, index: int) -> Any:  # noqa: ANN401 (the schema's type)
-        """The fields of a channel's message.
+        """Decode a channel's message.
 
         Raises:
             RecordingError: the message does not fit its schema.
@@ -44,21 +44,21 @@ class Decoder:
         try:
             self._register(channel)
             return self._store.deserialize_cdr(data, channel.schema_name)
-        except Exception as error:  # rosbags' generated code raises whatever the bytes lead it to
+        except Exception as error:  # rosbags' generated code can raise any error on broken bytes
             raise RecordingError(
                 f"{self._file.path} is broken at message {index} of {channel.topic}: "
                 f"it does not fit the type {channel.schema_name}."
             ) from error
 
     def messages(self, channel: ChannelInfo) -> Iterator[Any]:
-        """All messages of a channel, decoded one after the other; errors as in `decode`."""
+        """All messages of a channel, decoded one by one; errors as in `decode`."""
         return (self.decode(channel, i) for i in range(len(self._file.tables[channel.id])))
 
     def header_stamps(self, channel: ChannelInfo) -> NDArray[np.int64]:
         """Header stamps (N,) in nanoseconds of all messages of a channel whose type has a header.
 
-        Our own files say them in an attachment. In others only the stamp is read: it comes first
-        in a message, so nothing is decoded.
+        Our own files have them in an attachment. In others only the first bytes of each message
+        are read, without decoding it.
         """
         indexed = self._stamp_index.get(channel.topic)
         if indexed is not None and len(indexed) == len(self._file.tables[channel.id]):
@@ -68,7 +68,7 @@ class Decoder:
         return self._stamps[channel.id]
 
     def read_stamps(self, channels: Iterable[ChannelInfo]) -> None:
-        """Read the header stamps of several channels at once, for `header_stamps` to tell.
+        """Read the header stamps of several channels at once and cache them for `header_stamps`.
 
         Raises:
             RecordingError: a message is too short for a header.
@@ -98,7 +98,7 @@ class Decoder:
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)
-    """The header stamp of a decoded message in nanoseconds; RecordingError where it has none."""
+    """Header stamp of a decoded message in nanoseconds; RecordingError where it has none."""
     try:
         stamp = message.header.stamp
         return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
@@ -107,7 +107,7 @@ def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)
 
 
 def _stamp(payload: bytes) -> int:
-    # CDR: four bytes of encapsulation, the second says the byte order; then sec, nanosec.
+    # CDR: four bytes of encapsulation, the second is the byte order; then sec, nanosec.
     little = payload[1:2] in (b"\x01", b"\x07", b"\x09", b"\x0b")
     sec, nanosec = struct.unpack_from("<iI" if little else ">iI", payload, 4)
     return sec * 1_000_000_000 + nanosec

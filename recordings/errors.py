@@ -1,4 +1,4 @@
-"""What can be wrong with a recording, in words."""
+"""Errors of recordings."""
 
 from collections.abc import Sequence
 
@@ -6,15 +6,15 @@ _FEW = 8
 
 
 class RecordingError(Exception):
-    """A recording that cannot be used; one sentence says what, where, and what to do."""
+    """Recording that cannot be used; the message says what is wrong, where, and what to do."""
 
 
 class BrokenFileError(RecordingError):
-    """Bytes of a file that cannot be what they should be."""
+    """File with invalid bytes."""
 
 
 def few(names: Sequence[str]) -> str:
-    """Names for a sentence: all where they are few, else the first ones and how many more."""
+    """Join names for a message: all of a few, else the first ones and the number of others."""
     if len(names) <= _FEW:
         return ", ".join(names)
     return f"{', '.join(names[:_FEW])} and {len(names) - _FEW} more"

@@ -1,4 +1,4 @@
-"""What a recording holds of one instant, before it is written."""
+"""Frame of a recording to be written, with its truth, and the recording's provenance."""
 
 from dataclasses import dataclass, field
 
@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class PointTruth:
-    """The truth of every valid reading of a frame, one row per reading.
+    """Truth of every valid reading of a frame, one row per reading.
 
     Attributes:
-        points: (N, 3) metres in the fixed frame, where the zone's surface truly is.
+        points: (N, 3) metres in the fixed frame, true position of the measured surface.
         velocity: (N, 3) m/s in the fixed frame, zero where static.
-        object: (N,) number of the object that the zone sees, 0 for static surroundings.
+        object: (N,) number of the measured object, 0 for static surroundings.
         sensor: (N,) index of the sensor.
         zone: (N,) index of the zone, row * columns + column.
     """
@@ -27,13 +27,13 @@ class PointTruth:
 
 @dataclass(frozen=True)
 class Frame:
-    """One reading of all sensors of a rig on a robot, with what is known of the truth.
+    """One reading of all sensors of a rig on a robot, with the truth.
 
     The fixed frame is the robot's base.
 
     Attributes:
         stamp: seconds.
-        ranges: (S, rows, columns) metres as the sensors report them, NaN where they report none.
+        ranges: (S, rows, columns) metres as reported by the sensors, NaN where there is none.
         joint_positions: {the robot's joint: rad or m}.
         T_base_target: (4, 4) pose of the moving object's frame.
         target_velocity: (3,) m/s of the moving object.
@@ -41,7 +41,7 @@ class Frame:
         target_turn_rate: (3,) rad/s of the moving object.
         object_poses: {number in the truth: T_base_object (4, 4)} of objects whose pose is known,
             the moving object among them.
-        status: (S, rows, columns) ST's target status of each range; None where all count.
+        status: (S, rows, columns) ST's target status of each range; None where all are valid.
     """
 
     stamp: float
@@ -57,19 +57,18 @@ class Frame:
 
 @dataclass(frozen=True)
 class Provenance:
-    """Where a written recording comes from; it goes into the file's metadata.
+    """Provenance of a written recording, stored in the file's metadata.
 
     Attributes:
-        simulated: whether the readings were computed and not measured.
+        simulated: whether the readings were simulated.
         scenario: name of the scenario, such as "towards".
-        speed: m/s that was asked of the moving object.
+        speed: commanded speed of the moving object, m/s.
         trial: number of the trial, from 1.
         seed: of the random numbers.
         noise: name and one-line description of the noise model.
-        command: the command that makes the recording again.
-        imperfections: names of what is wrong with the recording besides noise.
-        rig: name of the rig that saw it, "" where an older file does not say; the rig itself is
-            the file's attachment rig.toml.
+        command: the command that reproduces the recording.
+        imperfections: names of the simulated imperfections.
+        rig: name of the rig, "" in older files; the rig itself is the file's attachment rig.toml.
     """
 
     simulated: bool

@@ -1,4 +1,4 @@
-"""Which messages belong to which frame."""
+"""Frames of a recording: assignment of the sensors' messages to frames."""
 
 from dataclasses import dataclass
 
@@ -14,8 +14,8 @@ class FrameTable:
         stamps: (K,) nanoseconds, strictly increasing.
         message: (K, S) index of each sensor's message in its own table, -1 where it has none.
         period: median time between two readings of a sensor, nanoseconds, 0 where unknown.
-        duplicates: readings that were dropped because the sensor gave a later one in the frame;
-            of a rig, the most that any of its sensors gave.
+        duplicates: readings dropped because the same sensor has a later one in the frame; per
+            frame that of the sensor with the most.
     """
 
     stamps: NDArray[np.int64]
@@ -25,15 +25,15 @@ class FrameTable:
 
     @property
     def completeness(self) -> float:
-        """Share of the sensors that a frame holds, on average."""
+        """Mean share of the sensors that a frame has a message of."""
         return float((self.message >= 0).mean()) if self.message.size else 0.0
 
 
 def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
-    """Put the messages of several sensors together into frames.
+    """Group the messages of several sensors into frames.
 
-    Messages belong together whose stamps lie within half a period; the frame's stamp is the
-    earliest of them. A sensor gives a frame one message, the last.
+    A frame holds the messages within half a period after its stamp, the earliest of theirs; of
+    several messages of a sensor it keeps the last.
 
     Args:
         stamps: header stamps (N_s,) in nanoseconds of each sensor, in the order of arrival.

@@ -1,4 +1,4 @@
-"""Grids of zones: the sizes that a sensor may have, and several sizes in one array."""
+"""Grids of zones: valid sizes, and padding of several sizes into one array."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,29 +8,29 @@ from numpy.typing import NDArray
 
 _LEAST, _MOST = 2, 64
 SIZES = f"{_LEAST} x {_LEAST} to {_MOST} x {_MOST} zones"
-"""The sizes that a sensor may have, for sentences."""
+"""Valid sizes of a sensor, for messages."""
 
 Grid = tuple[int, int]
 """Rows and columns."""
 
 
 def is_grid(rows: int, columns: int) -> bool:
-    """Whether an image of this size is one of a ToF sensor, a zone per pixel."""
+    """Whether an image of this size can be of a ToF sensor, a zone per pixel."""
     return _LEAST <= rows <= _MOST and _LEAST <= columns <= _MOST
 
 
 def shown(grid: Grid) -> str:
-    """A size as people say it, columns first."""
+    """Text of a size, columns first."""
     return f"{grid[1]} x {grid[0]}"
 
 
 def common_grid(grids: Sequence[Grid]) -> Grid:
-    """The smallest grid that holds all of several."""
+    """Smallest grid that contains all given ones."""
     return max(rows for rows, _ in grids), max(columns for _, columns in grids)
 
 
 def padded(values: NDArray[Any], grid: Grid, filling: float) -> NDArray[Any]:
-    """Values (rows, columns, ...) in a grid at least as large, from its first row and column on."""
+    """Pad values (rows, columns, ...) at the end to a grid at least as large."""
     rows, columns = values.shape[:2]
     if (rows, columns) == grid:
         return values

@@ -1,4 +1,4 @@
-"""What is in a recording, without estimating anything."""
+"""Summary of an MCAP file and its topics."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,17 +13,17 @@ from recordings.mcap_file import McapFile
 
 @dataclass(frozen=True)
 class TopicInfo:
-    """A topic of a file; times are log times.
+    """Summary of a topic; times are log times.
 
     Attributes:
         topic: its name.
         type: name of its schema.
         encoding: of its messages.
-        messages: their number.
+        messages: number of messages.
         rate: mean messages per second, None for fewer than two.
         longest_gap: seconds, None for fewer than two.
-        use: what it is used as.
-        why_not: why it is not used, "" where it is.
+        use: of the topic.
+        why_not: reason why it is not used, "" where it is.
     """
 
     topic: str
@@ -38,15 +38,15 @@ class TopicInfo:
 
 @dataclass(frozen=True)
 class FileInfo:
-    """What is in an MCAP file.
+    """Summary of an MCAP file.
 
     Attributes:
         path: of the file.
         size: bytes.
         duration: seconds between the first and the last message.
         topics: in natural order.
-        cut_short: whether the file ends in the middle.
-        broken: pieces that are broken and left out.
+        cut_short: whether the end of the file is missing.
+        broken: number of broken records that are left out.
     """
 
     path: str
@@ -58,7 +58,7 @@ class FileInfo:
 
 
 def file_info(path: str | Path) -> FileInfo:
-    """Look into an MCAP file; it need not be a recording that can be opened.
+    """Summarise an MCAP file, whether or not it can be opened as a recording.
 
     Raises:
         RecordingError: it cannot be read as MCAP.

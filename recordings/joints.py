@@ -12,12 +12,12 @@ from recordings.mcap_file import McapFile
 from recordings.tracks import Stamps, vector_track
 from robot_assets import JointMatch, Robot
 
-_LOOKED_AT = 50  # messages; a stream that mixes arm and gripper shows both among so many
+_FIRST_MESSAGES = 50  # enough to see both kinds in a stream that mixes arm and gripper
 _NOT_MEASURED = ("desired", "command", "target", "goal")
 
 
 def joint_names(topics: list[Topic], file: McapFile, decoder: Decoder) -> list[str]:
-    """The names of all joints in a file, by the first messages of each topic."""
+    """Names of all joints in a file, from the first messages of each topic."""
     names: list[str] = []
     for topic in _joint_topics(topics):
         for message_names in _first_names(topic, file, decoder):
@@ -30,19 +30,19 @@ def joint_positions(
 ) -> tuple[dict[str, NDArray[np.float64]], list[str]]:
     """Read the positions of a robot's joints at given stamps.
 
-    Where several topics have a joint, measured positions win over desired ones, then the topic
-    with the most joints.
+    Of several topics with the same joint, measured positions are preferred to desired ones, then
+    the topic with the most joints.
 
     Args:
         topics: of the file; those used as joint positions are read.
         file: the file.
         decoder: of the same file.
-        match: which recorded name is which joint.
+        match: of recorded names to joints.
         stamps: (K,) nanoseconds.
 
     Returns:
-        {joint: (K,) rad or m, NaN where the recording does not cover the stamp}, and a sentence
-        where several topics had the same joints.
+        {joint: (K,) rad or m, NaN where the recording does not cover the stamp}, and warnings
+        about topics with the same joints.
     """
     found = {
         topic.name: _of_topic(topic, file, decoder, match, stamps)
@@ -62,7 +62,7 @@ def joint_positions(
 
 
 def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
-    """Match recorded joint names to a robot, with a sentence for whatever does not fit."""
+    """Match recorded joint names to a robot; returns the match and warnings."""
     match = robot.match_joints(names)
     warnings: list[str] = []
     if match.rivals:
@@ -81,11 +81,11 @@ def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
 
 
 def beyond_limits(robot: Robot, positions: dict[str, NDArray[np.float64]]) -> list[str]:
-    """Sentences about joints beyond their limits, at the frame where each is furthest out.
+    """Warnings about joints beyond their limits, at each joint's position furthest from its median.
 
     Args:
         robot: the robot.
-        positions: {joint: (K,)} that were recorded.
+        positions: {joint: (K,)} as recorded.
     """
     extremes = {
         joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
@@ -98,12 +98,12 @@ def beyond_limits(robot: Robot, positions: dict[str, NDArray[np.float64]]) -> li
 def unknown_joints(
     robot: Robot, positions: dict[str, NDArray[np.float64]], placed: Iterable[str]
 ) -> list[str]:
-    """Sentences about joints without a position, and what that means for the robot.
+    """Warnings about joints without a position, and their effect on the robot.
 
     Args:
         robot: the robot.
-        positions: {joint: (K,)} that were recorded.
-        placed: links that /tf places.
+        positions: {joint: (K,)} as recorded.
+        placed: links with a pose in /tf.
     """
     known = {j for j, values in positions.items() if np.isfinite(values).any()}
     if not known:
@@ -133,7 +133,7 @@ def _is_not_measured(topic: str) -> bool:
 
 
 def _first_names(topic: Topic, file: McapFile, decoder: Decoder) -> set[tuple[str, ...]]:
-    count = min(len(file.tables[topic.channel.id]), _LOOKED_AT)
+    count = min(len(file.tables[topic.channel.id]), _FIRST_MESSAGES)
     messages = (decoder.decode(topic.channel, index) for index in range(count))
     return {tuple(str(name) for name in message.name) for message in messages}
 
@@ -144,8 +144,8 @@ def _of_topic(
     message_stamps = decoder.header_stamps(topic.channel)
     wanted = np.arange(len(message_stamps))
     if len(_first_names(topic, file, decoder)) == 1:
-        # Joint streams run at up to 1 kHz; only the messages next to a frame are decoded. Where
-        # messages hold different joints, any of them may be the one that is needed.
+        # Joint streams run at up to 1 kHz: only the messages next to a frame are decoded. Not where
+        # messages hold different joints, since the neighbours may lack the needed one.
         order = np.argsort(message_stamps, kind="stable")
         after = np.searchsorted(message_stamps[order], stamps)
         around = np.clip(np.concatenate([after - 1, after]), 0, len(order) - 1)

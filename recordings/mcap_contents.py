@@ -1,4 +1,4 @@
-"""What is in an MCAP file: its records, taken one by one, and tables of its messages."""
+"""Contents of an MCAP file: its records, and tables of its messages."""
 
 import struct
 from dataclasses import dataclass, field
@@ -12,16 +12,16 @@ from mcap.stream_reader import get_chunk_data_stream
 from numpy.typing import NDArray
 
 RECORD_HEAD = struct.Struct("<BQ")
-"""Opcode, and length of what follows."""
+"""Opcode, and length of the content."""
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 """Channel, sequence, log time, publish time."""
 UNCHUNKED = -1
-_LATEST = 2**63 - 1  # log times are unsigned in the file; none is as late as this
+_LATEST = 2**63 - 1  # log times are unsigned in the file, and signed here
 
 
 @dataclass(frozen=True)
 class ChannelInfo:
-    """A channel of the file: a topic and the type of its messages."""
+    """Channel of the file: a topic and the type of its messages."""
 
     id: int
     topic: str
@@ -33,7 +33,7 @@ class ChannelInfo:
 
 @dataclass(frozen=True)
 class MessageTable:
-    """Where the messages of one channel are, in the order of their log times.
+    """Locations of the messages of one channel, in the order of their log times.
 
     Attributes:
         log_time: (N,) nanoseconds.
@@ -51,19 +51,22 @@ class MessageTable:
 
 @dataclass
 class Contents:
-    """What is gathered while a file is indexed."""
+    """Records of a file, collected while it is indexed.
+
+    `locations` holds (log time, chunk, offset) of the messages of each channel.
+    """
 
     channels: dict[int, Channel] = field(default_factory=dict)
     schemas: dict[int, Schema] = field(default_factory=dict)
-    places: dict[int, list[tuple[int, int, int]]] = field(default_factory=dict)
+    locations: dict[int, list[tuple[int, int, int]]] = field(default_factory=dict)
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     attachments: dict[str, bytes] = field(default_factory=dict)
     cut_short: bool = False
     broken_chunks: int = 0
 
     def add_message(self, channel: int, log_time: int, chunk: int, offset: int) -> None:
-        """Note where a message is."""
-        self.places.setdefault(channel, []).append((min(log_time, _LATEST), chunk, offset))
+        """Add the location of a message."""
+        self.locations.setdefault(channel, []).append((min(log_time, _LATEST), chunk, offset))
 
 
 SCANNED = {
@@ -74,11 +77,11 @@ SCANNED = {
     Opcode.METADATA,
     Opcode.ATTACHMENT,
 }
-"""Records of the data section that are taken."""
+"""Records of the data section that are read."""
 
 
-def take(contents: Contents, opcode: int, record: bytes, position: int) -> None:
-    """Enter one record of the data section; `position` is its offset in the file."""
+def add_record(contents: Contents, opcode: int, record: bytes, position: int) -> None:
+    """Add one record of the data section; `position` is its offset in the file."""
     stream = ReadDataStream(BytesIO(record))
     if opcode == Opcode.SCHEMA:
         schema = Schema.read(stream)
@@ -96,10 +99,10 @@ def take(contents: Contents, opcode: int, record: bytes, position: int) -> None:
         attachment = Attachment.read(stream)
         contents.attachments[attachment.name] = attachment.data
     elif opcode == Opcode.CHUNK:
-        _take_chunk(contents, Chunk.read(stream), position)
+        _add_chunk(contents, Chunk.read(stream), position)
 
 
-def _take_chunk(contents: Contents, chunk: Chunk, position: int) -> None:
+def _add_chunk(contents: Contents, chunk: Chunk, position: int) -> None:
     data = chunk_data(chunk)
     offset = 0
     while offset + RECORD_HEAD.size <= len(data):
@@ -109,12 +112,12 @@ def _take_chunk(contents: Contents, chunk: Chunk, position: int) -> None:
             channel_id, _, log_time, _ = MESSAGE_HEAD.unpack_from(data, start)
             contents.add_message(channel_id, log_time, position, offset)
         elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
-            take(contents, opcode, data[start : start + length], position)
+            add_record(contents, opcode, data[start : start + length], position)
         offset = start + length
 
 
 def chunk_data(chunk: Chunk) -> bytes:
-    """The decompressed records of a chunk, whose CRC is checked."""
+    """Decompressed records of a chunk; its CRC is checked."""
     stream, length = get_chunk_data_stream(chunk, validate_crc=True)
     return stream.read(length)
 
@@ -131,22 +134,22 @@ def _channel_info(channel: Channel, contents: Contents) -> ChannelInfo:
     )
 
 
-def joined_channels(
+def merged_channels(
     contents: Contents,
 ) -> tuple[tuple[ChannelInfo, ...], dict[int, list[tuple[int, int, int]]]]:
-    """Channels with their messages; several publishers of one topic and type are one channel."""
+    """Channels with the locations of their messages; those of one topic and type are merged."""
     channels: dict[tuple[str, str, str], ChannelInfo] = {}
-    places: dict[int, list[tuple[int, int, int]]] = {}
+    locations: dict[int, list[tuple[int, int, int]]] = {}
     for channel in contents.channels.values():
         info = _channel_info(channel, contents)
         kind = (info.topic, info.encoding, info.schema_name)
         first = channels.setdefault(kind, info)
-        places.setdefault(first.id, []).extend(contents.places.get(channel.id, []))
-    return tuple(channels.values()), places
+        locations.setdefault(first.id, []).extend(contents.locations.get(channel.id, []))
+    return tuple(channels.values()), locations
 
 
-def message_table(places: list[tuple[int, int, int]]) -> MessageTable:
-    """A table of messages at (log time, chunk, offset), in any order."""
-    columns = np.array(places, dtype=np.int64).reshape(-1, 3)
+def message_table(locations: list[tuple[int, int, int]]) -> MessageTable:
+    """Make a table of messages at (log time, chunk, offset), in any order."""
+    columns = np.array(locations, dtype=np.int64).reshape(-1, 3)
     columns = columns[np.argsort(columns[:, 0], kind="stable")]
     return MessageTable(columns[:, 0], columns[:, 1], columns[:, 2])

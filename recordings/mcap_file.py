@@ -1,4 +1,4 @@
-"""The container: channels, an index of the messages, and messages by their place in it."""
+"""MCAP file: channels, an index of the messages, and random access to messages."""
 
 import struct
 import threading
@@ -22,10 +22,10 @@ from recordings.mcap_contents import (
     UNCHUNKED,
     ChannelInfo,
     Contents,
+    add_record,
     chunk_data,
-    joined_channels,
+    merged_channels,
     message_table,
-    take,
 )
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -33,7 +33,7 @@ _OTHER_MAGIC = {
     b"#ROSBAG V2.0": "a ROS 1 bag",
     b"SQLite format 3\0": "an SQLite file, perhaps a ROS 2 bag in that format",
 }
-_CACHED_BYTES = 64 * 2**20  # decompressed chunks kept at hand
+_CACHED_BYTES = 64 * 2**20  # of decompressed chunks
 _BROKEN = (
     McapError,
     OSError,
@@ -50,17 +50,17 @@ _BROKEN = (
 
 
 class McapFile:
-    """An MCAP file, opened for reading; safe to use from several threads.
+    """MCAP file opened for reading; thread-safe.
 
-    The file's own index is used where it has a complete one. Otherwise (no summary, no message
-    index, cut short while recording) the file is read through once to make one.
+    The file's own index is used where it is complete. Otherwise (no summary, no message index, cut
+    short while recording) the whole file is scanned once to make one.
 
     Args:
         path: the file.
-        salvage: read the file through whatever its index says, and leave broken chunks out.
+        salvage: ignore the file's index, scan it, and leave broken chunks out.
 
     Raises:
-        RecordingError: the file is not there, or not MCAP.
+        RecordingError: the file does not exist or is not MCAP.
         BrokenFileError: it is broken.
     """
 
@@ -71,8 +71,8 @@ class McapFile:
         self._stream = _opened(path)
         try:
             contents = (None if salvage else self._from_index()) or self._scanned()
-            self.channels, places = joined_channels(contents)
-            self.tables = {c.id: message_table(places[c.id]) for c in self.channels}
+            self.channels, locations = merged_channels(contents)
+            self.tables = {c.id: message_table(locations[c.id]) for c in self.channels}
         except _BROKEN as error:
             self._stream.close()
             raise BrokenFileError(f"{path} is a broken MCAP file: {_text(error)}.") from error
@@ -82,7 +82,7 @@ class McapFile:
         self.attachments = contents.attachments
 
     def message(self, channel: ChannelInfo, index: int) -> bytes:
-        """The payload of a channel's message, by its index in the channel's table."""
+        """Payload of a channel's message, by its index in the channel's table."""
         table = self.tables[channel.id]
         chunk, offset = int(table.chunk[index]), int(table.offset[index])
         try:
@@ -104,16 +104,16 @@ class McapFile:
         self, channels: Iterable[ChannelInfo]
     ) -> Iterator[tuple[ChannelInfo, int, bytes]]:
         """The messages of several channels as (channel, index, payload), each chunk read once."""
-        places: list[tuple[int, int, ChannelInfo, int]] = []
+        messages: list[tuple[int, int, ChannelInfo, int]] = []
         for channel in channels:
             table = self.tables[channel.id]
             rows = zip(table.chunk.tolist(), table.offset.tolist(), strict=True)
-            places += [(chunk, offset, channel, i) for i, (chunk, offset) in enumerate(rows)]
-        for _, _, channel, index in sorted(places, key=lambda place: place[:2]):
+            messages += [(chunk, offset, channel, i) for i, (chunk, offset) in enumerate(rows)]
+        for _, _, channel, index in sorted(messages, key=lambda message: message[:2]):
             yield channel, index, self.message(channel, index)
 
     def close(self) -> None:
-        """Close the file; nothing can be read from it any more."""
+        """Close the file."""
         with self._lock:
             self._stream.close()
             self._chunks.clear()
@@ -133,10 +133,10 @@ class McapFile:
         try:
             return self._indexed()
         except _BROKEN:
-            return None  # cut short before the summary was written, or the summary is broken
+            return None  # the summary is missing or broken
 
     def _indexed(self) -> Contents | None:
-        """Use the summary, None where it is absent or does not cover all messages."""
+        """Contents by the summary, None where it is missing or does not cover all messages."""
         self._stream.seek(0)
         reader = SeekingReader(self._stream)
         summary = reader.get_summary()
@@ -147,13 +147,13 @@ class McapFile:
             for offset in index.message_index_offsets.values():
                 self._stream.seek(offset + RECORD_HEAD.size)
                 entries = MessageIndex.read(ReadDataStream(self._stream))
-                for log_time, place in entries.records:
+                for log_time, inside in entries.records:
                     contents.add_message(
-                        entries.channel_id, log_time, index.chunk_start_offset, place
+                        entries.channel_id, log_time, index.chunk_start_offset, inside
                     )
         complete = (
-            sum(map(len, contents.places.values())) == summary.statistics.message_count
-            and set(contents.places) <= set(contents.channels)
+            sum(map(len, contents.locations.values())) == summary.statistics.message_count
+            and set(contents.locations) <= set(contents.channels)
             and all(c.schema_id in (0, *contents.schemas) for c in contents.channels.values())
             and len(summary.metadata_indexes) == summary.statistics.metadata_count
             and len(summary.attachment_indexes) == summary.statistics.attachment_count
@@ -182,9 +182,9 @@ class McapFile:
                 return contents
             if opcode in SCANNED:
                 try:
-                    take(contents, opcode, self._stream.read(length), position)
+                    add_record(contents, opcode, self._stream.read(length), position)
                 except _BROKEN:
-                    # Records stand by themselves: what comes after a broken one is still good.
+                    # Records are independent: those after a broken one can still be read.
                     contents.broken_chunks += 1
             position += RECORD_HEAD.size + length
 

@@ -1,4 +1,4 @@
-"""Which truth a recording has, brought into its fixed frame."""
+"""Finding the truth of a recording, and transforming it into the fixed frame."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from recordings.transforms import TransformTree
 from recordings.truth import ObjectTruth, RigidTruth, TurningTruth, TwistTruth
 
 OBJECT_FRAME = "object_"
-"""With its number in the truth of points behind it, the frame of an object in /tf."""
+"""Prefix of an object's frame in /tf; the object's number in the truth of points follows."""
 _TURNING = 1e-3  # rad/s
 
 
@@ -31,11 +31,11 @@ def object_truth(
         decoder: of the file.
         stamps: (K,) nanoseconds of the frames.
         tree: poses of /tf.
-        fixed_frame: in which the truth is wanted.
-        truth_frame: the frame whose motion it is; None for the recorded twist, or else pose.
+        fixed_frame: of the result.
+        truth_frame: the frame whose motion is the truth; None for the recorded twist or pose.
 
     Returns:
-        The truth, None where there is none, and sentences about what could not be used.
+        The truth, None where there is none, and warnings about topics that could not be used.
 
     Raises:
         RecordingError: a message does not fit its type.
@@ -52,10 +52,10 @@ def object_truth(
     for use, read in ((Use.VELOCITY, _by_twist), (Use.POSE, _by_pose)):
         for topic in topics:
             if topic.use is use:
-                truth, said = read(topic, decoder, stamps, tree, fixed_frame)
-                warnings += said
-                if isinstance(truth, TwistTruth) and truth.turns:
-                    truth = _turning(truth, topics, decoder, stamps, tree, fixed_frame)
+                truth, more = read(topic, decoder, stamps, tree, fixed_frame)
+                warnings += more
+                if isinstance(truth, TwistTruth) and truth.rotates:
+                    truth = _with_pose(truth, topics, decoder, stamps, tree, fixed_frame)
                 if truth is not None:
                     if not named_truth(topic.name):
                         what = use.removeprefix("truth: ")
@@ -77,9 +77,9 @@ def point_truths(
     tree: TransformTree,
     fixed_frame: str,
 ) -> tuple[PointTruths | None, list[str]]:
-    """Find the truth of every point, None where there is none in the fixed frame itself.
+    """Find the truth of every point; None, with a warning, where it is in another frame.
 
-    The frame `object_3` of /tf is taken as the pose of the object 3 of that truth.
+    The frame `object_3` of /tf is the pose of object 3 in that truth.
     """
     topic = next((topic for topic in topics if topic.use is Use.POINTS), None)
     if topic is None:
@@ -98,7 +98,7 @@ def point_truths(
     return PointTruths(topic, decoder, table.stamps, 0.5 * table.period, poses), []
 
 
-def _turning(
+def _with_pose(
     twist: TwistTruth,
     topics: list[Topic],
     decoder: Decoder,
@@ -106,7 +106,7 @@ def _turning(
     tree: TransformTree,
     fixed_frame: str,
 ) -> ObjectTruth:
-    """The truth of an object that turns: by its pose, too, where that is recorded."""
+    """Truth of a rotating object: its twist, with its pose where that is recorded."""
     for topic in topics:
         if topic.use is Use.POSE:
             rigid, _ = _by_pose(topic, decoder, stamps, tree, fixed_frame)
@@ -124,12 +124,12 @@ def _by_twist(
 ) -> tuple[ObjectTruth | None, list[str]]:
     times: list[int] = []
     values: list[tuple[float, float, float]] = []
-    turns = False
+    rotates = False
     for message in decoder.messages(topic.channel):
         linear, angular = message.twist.linear, message.twist.angular
         times.append(stamp_of(message))
         values.append((linear.x, linear.y, linear.z))
-        turns |= max(abs(angular.x), abs(angular.y), abs(angular.z)) > _TURNING
+        rotates |= max(abs(angular.x), abs(angular.y), abs(angular.z)) > _TURNING
     velocity = np.array(values)
     warnings: list[str] = []
     if topic.frame not in ("", fixed_frame):
@@ -145,14 +145,14 @@ def _by_twist(
             ]
         else:
             poses = tree.over(fixed_frame, topic.frame, len(stamps))
-            turn = next((T for T in poses if np.isfinite(T).all()), None)
-            if turn is None:
+            known = poses[np.isfinite(poses).all(axis=(1, 2))]
+            if len(known) == 0:
                 return None, [f"The pose of {topic.frame} is not known at any frame."]
-            velocity = velocity @ turn[:3, :3].T
+            velocity = velocity @ known[0, :3, :3].T
     track = vector_track(np.array(times, dtype=np.int64), velocity)
     if track is None:
         return None, [f"{topic.name} has no finite velocity."]
-    return TwistTruth(track, stamps, turns), warnings
+    return TwistTruth(track, stamps, rotates), warnings
 
 
 def _by_pose(
@@ -163,14 +163,14 @@ def _by_pose(
     fixed_frame: str,
 ) -> tuple[ObjectTruth | None, list[str]]:
     times: list[int] = []
-    places: list[tuple[float, ...]] = []
-    turns: list[tuple[float, ...]] = []
+    positions: list[tuple[float, ...]] = []
+    quaternions: list[tuple[float, ...]] = []
     for message in decoder.messages(topic.channel):
         p, q = message.pose.position, message.pose.orientation
         times.append(stamp_of(message))
-        places.append((p.x, p.y, p.z))
-        turns.append((q.x, q.y, q.z, q.w))
-    track = pose_track(np.array(times, dtype=np.int64), np.array(places), np.array(turns))
+        positions.append((p.x, p.y, p.z))
+        quaternions.append((q.x, q.y, q.z, q.w))
+    track = pose_track(np.array(times, dtype=np.int64), np.array(positions), np.array(quaternions))
     if track is None:
         return None, [f"{topic.name} has no usable pose."]
     poses = track.at(stamps)

@@ -1,4 +1,4 @@
-"""Opening a recording: what each topic is, where the sensors are, what the truth is."""
+"""Opening a recording: uses of topics, poses of sensors, robot and truth."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -35,7 +35,7 @@ from recordings.stamp_index import STAMP_INDEX
 from recordings.transforms import read_transforms
 from robot_assets import Rig, Robot, Sensor, load_rig, load_robot
 
-_COMPLETE = 0.9  # share of the sensors in a frame, below which something is wrong
+_COMPLETE = 0.9  # mean share of the sensors in a frame, below which there is a warning
 
 
 def open_recording(
@@ -49,11 +49,11 @@ def open_recording(
 
     Args:
         path: an MCAP file.
-        fixed_frame: in which clouds and truth are; default: the root of the tree of /tf, or the
+        fixed_frame: frame of clouds and truth; default: the root of the tree of /tf, or the
             robot's base.
         truth_frame: a frame whose rigid motion is the truth; default: the recorded twist or pose.
-        rig: sensors by name, intrinsics included, for recordings that do not place their own;
-            default: the rig in the file, or the paper's, where the joints are a Panda's.
+        rig: extrinsics and intrinsics of the sensors, by name, for recordings without; default:
+            the rig in the file, or the paper's where the joints are a Panda's.
         robot: default: the recording's description, or a Panda where the joints are a Panda's.
 
     Returns:
@@ -65,7 +65,7 @@ def open_recording(
     try:
         return _opened(McapFile(Path(path)), fixed_frame, truth_frame, rig, robot)
     except BrokenFileError:
-        # What is not broken is worth having.
+        # Use the parts that are not broken.
         return _opened(McapFile(Path(path), salvage=True), fixed_frame, truth_frame, rig, robot)
 
 
@@ -95,7 +95,7 @@ def _open(
     provenance = provenance_of(file)
     own_rig, about_rig = rig_of(file) if provenance is not None else (None, [])
     if rig is not None and provenance is not None:
-        # What we write are depth images as REP 118 has them, however the rig's driver delivers.
+        # Our writer stores depth images as in REP 118, for any driver's format in the rig.
         rig = replace(rig, model=rig.model.of_depth_images())
     found = recorded_sensors(topics, decoder, rig, own_rig)
     if not found:
@@ -111,8 +111,8 @@ def _open(
 
     names = joint_names(topics, file, decoder)
     if robot is None:
-        robot, said = recorded_robot(topics, decoder, names)
-        warnings += said
+        robot, more = recorded_robot(topics, decoder, names)
+        warnings += more
     if robot is not None and (missing := robot.missing_meshes):
         count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
         warnings.append(
@@ -130,21 +130,21 @@ def _open(
     if robot is None:
         fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, None, {})
     else:
-        match, said = matched(robot, names)
+        match, more = matched(robot, names)
         in_tree = link_frames(robot, match.prefix, tree.frames)
         fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, robot, in_tree)
         positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
-        warnings += said + doubled + beyond_limits(robot, positions)
+        warnings += more + doubled + beyond_limits(robot, positions)
         placed = [link for link, frame in in_tree.items() if frame in tree.frames]
         warnings += unknown_joints(robot, positions, placed)
         robot_poses = RobotPoses(robot, positions, tree, fixed, in_tree)
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
     warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
 
-    truth, said = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
-    warnings += said
-    points, said = point_truths(topics, decoder, table, tree, fixed)
-    warnings += said
+    truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
+    warnings += more
+    points, more = point_truths(topics, decoder, table, tree, fixed)
+    warnings += more
     return Recording(
         Parts(
             file=file,
@@ -165,7 +165,7 @@ def _open(
 
 
 def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
-    """Sentences about what is wrong with the file as a whole."""
+    """Warnings about the file as a whole."""
     warnings: list[str] = []
     if file.cut_short:
         warnings.append("The file is cut short; what it holds up to there is used.")
@@ -180,9 +180,9 @@ def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
 
 
 def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
-    shown = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
-    more = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
-    held = f"it holds {', '.join(shown)}{more}" if topics else "it holds no topics"
+    listed = [f"{t.name} ({t.channel.schema_name or t.channel.encoding})" for t in topics[:6]]
+    others = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
+    held = f"it holds {', '.join(listed)}{others}" if topics else "it holds no topics"
     return (
         f"{file.path} has no depth images of {SIZES}, so there is nothing to estimate from; {held}."
     )
@@ -191,7 +191,7 @@ def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
 def _check_rig(
     file: McapFile, rig: Rig, found: list[tuple[Topic, RecordedSensor, Sensor | None]]
 ) -> None:
-    """RecordingError where the images of a rig's sensor are not of the rig's size."""
+    """Raise RecordingError where images of a rig's sensor have another size than the rig's."""
     model = rig.model
     for topic, _, in_rig in found:
         if in_rig is not None and topic.grid is not None and not model.delivers(*topic.grid):

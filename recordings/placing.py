@@ -1,4 +1,4 @@
-"""The fixed frame of a recording, and the sensors that nothing or too little places in it."""
+"""Choice of the fixed frame, and warnings about sensors without a pose in it."""
 
 from collections.abc import Mapping
 
@@ -11,35 +11,35 @@ from robot_assets import Rig, Robot, Sensor
 
 
 def chosen_fixed_frame(
-    asked: str | None,
+    chosen: str | None,
     file: McapFile,
     tree: TransformTree,
     frames: list[str],
     robot: Robot | None,
     link_frames: Mapping[str, str],
 ) -> str:
-    """Choose the frame in which clouds and truth are.
+    """Choose the frame of clouds and truth.
 
     Args:
-        asked: by a person, None to choose the root above most sensors, or the robot's base.
-        file: the recording's.
-        tree: its /tf.
-        frames: of its sensors.
-        robot: its robot, None without.
+        chosen: the user's choice; None for the root above most sensors, or the robot's base.
+        file: of the recording.
+        tree: poses of /tf.
+        frames: of the sensors.
+        robot: of the recording, None without.
         link_frames: {link: its frame in /tf} of the robot.
 
     Returns:
-        A frame; where a person asked for a link by the robot's own name, the link's in /tf.
+        A frame; for a link that the user named as the robot does, its frame in /tf.
 
     Raises:
-        RecordingError: there is no such frame, or nothing relates the sensors to each other.
+        RecordingError: there is no such frame, or the sensors have no poses relative to each other.
     """
     known = tree.frames | set(frames) | set(link_frames) | set(link_frames.values())
-    if asked is not None:
-        if asked not in known:
+    if chosen is not None:
+        if chosen not in known:
             listed = [*sorted(known - set(frames)), *sorted(frames, key=natural_key)]
-            raise RecordingError(f"{file.path} has no frame {asked}; it has {few(listed)}.")
-        return asked if asked in tree.frames else link_frames.get(asked, asked)
+            raise RecordingError(f"{file.path} has no frame {chosen}; it has {few(listed)}.")
+        return chosen if chosen in tree.frames else link_frames.get(chosen, chosen)
     in_tree = [frame for frame in frames if frame in tree.frames]
     if in_tree:
         roots = [tree.root_of(frame) for frame in in_tree]
@@ -63,19 +63,19 @@ def unplaced_sensors(
     robot: Robot | None,
     rig: Rig | None,
 ) -> list[str]:
-    """Sentences about sensors that nothing places, and about a rig that does not fit in full.
+    """Warnings about sensors without a pose, and about a rig that does not fit the topics.
 
     Args:
-        file: the recording's.
-        found: for each depth topic its sensor, and that of `rig` which it matches.
+        file: of the recording.
+        found: for each depth topic its sensor, and the sensor of `rig` that it matches.
         tree: poses of /tf.
         fixed: the fixed frame.
-        by_rig: the sensor of a rig, chosen or default, that places each, None without.
-        robot: on which the rig's sensors are, None without.
-        rig: one that a person chose, None without.
+        by_rig: for each, the sensor of the chosen or default rig with its extrinsics, None without.
+        robot: that carries the rig, None without.
+        rig: the user's choice, None without.
 
     Raises:
-        RecordingError: no sensor is placed at all.
+        RecordingError: no sensor has a pose.
     """
     unplaced = [
         topic.frame or topic.name
@@ -95,11 +95,11 @@ def unplaced_sensors(
     warnings += _on_one_spot(found, tree, fixed, by_rig)
     if rig is None:
         return warnings
-    if strangers := [t.name for t, _, in_rig in found if in_rig is None]:
-        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(strangers)}.")
+    if unmatched := [t.name for t, _, in_rig in found if in_rig is None]:
+        warnings.append(f"The rig '{rig.name}' has no sensor named like {few(unmatched)}.")
     there = {in_rig.name for _, _, in_rig in found if in_rig is not None}
-    if absent := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
-        warnings.append(f"No topic belongs to {few(absent)} of the rig '{rig.name}'.")
+    if missing := [sensor.name for sensor in rig.sensors if sensor.name not in there]:
+        warnings.append(f"No topic belongs to {few(missing)} of the rig '{rig.name}'.")
     return warnings
 
 
@@ -109,7 +109,7 @@ def _on_one_spot(
     fixed: str,
     by_rig: list[Sensor | None],
 ) -> list[str]:
-    """Sentences about sensors that one and the same sensor of the rig places."""
+    """Warnings about topics that match the same sensor of the rig, and so have the same pose."""
     topics: dict[str, list[str]] = {}
     for (topic, _, _), sensor in zip(found, by_rig, strict=True):
         if sensor and not tree.connected(fixed, topic.frame):

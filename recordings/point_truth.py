@@ -1,4 +1,4 @@
-"""The truth of every point, where a recording has it."""
+"""Truth of every point, read from a recording."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -33,14 +33,14 @@ class _FrameTruth:
 
 
 class PointTruths:
-    """Reads /truth/points: position, velocity and object of every reading.
+    """Truth of points in the recording: position, velocity and object of every reading.
 
     Args:
-        topic: PointCloud2 with x, y, z, vx, vy, vz, object, and, as we write it, sensor and zone.
+        topic: PointCloud2 with x, y, z, vx, vy, vz, object, and, in our files, sensor and zone.
         decoder: of the file.
         stamps: (K,) nanoseconds of the frames.
-        tolerance: how far a message's stamp may be from a frame's, nanoseconds.
-        poses: {object: its pose (K, 4, 4) at the frames, NaN where unknown} where it is recorded.
+        tolerance: largest difference between a message's stamp and a frame's, nanoseconds.
+        poses: {object: its pose (K, 4, 4) at the frames, NaN where unknown} as far as recorded.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class PointTruths:
     def at(self, k: int, cloud: Cloud) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
         """Velocity (N, 3) m/s and object (N,) of each point of a frame's cloud.
 
-        Velocities are NaN and objects -1 for points of which the recording does not tell.
+        Velocities are NaN and objects -1 for points without truth; None for frames without.
         """
         frame = self._frame(k)
         if frame is None:
@@ -75,11 +75,10 @@ class PointTruths:
     def over(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s of each point of the source cloud until the target frame.
 
-        A point follows its object rigidly, rotation included: by the object's poses where they are
-        recorded. Without them a rigid motion is fitted to the velocities of its points at every
-        frame, and followed: exact while the motion is constant; where the points are too few to
-        tell a rotation, it is a translation at their mean velocity. What differs from the fit at
-        the source frame, differs all the time.
+        A point moves rigidly with its object, by the object's recorded poses. Without poses a twist
+        is fitted to the velocities of the object's points at every frame and integrated: exact
+        while the motion is constant; with too few points for a rotation it is their mean velocity.
+        A point's deviation from the twist at the source frame is kept throughout.
         """
         frame = self._frame(source_k)
         start = self.at(source_k, cloud)
@@ -93,29 +92,29 @@ class PointTruths:
             points = frame.points[row[mine]]
             motion = self._pose_change(number, source_k, target_k)
             if motion is not None:
-                own = np.zeros(3)
+                deviation = np.zeros(3)
             else:
-                motion = self._followed(number, source_k, target_k)
-                own = velocity[mine] - frame.twists[number].velocity(points)
-            carried = points @ motion[:3, :3].T + motion[:3, 3]
-            velocity[mine] = (carried - points) / seconds + own
+                motion = self._integrated(number, source_k, target_k)
+                deviation = velocity[mine] - frame.twists[number].velocity(points)
+            moved = points @ motion[:3, :3].T + motion[:3, 3]
+            velocity[mine] = (moved - points) / seconds + deviation
         return velocity
 
     def _pose_change(self, number: int, source_k: int, target_k: int) -> Transform | None:
-        """What takes points of an object at the source to where they are at the target frame."""
+        """Motion (4, 4) of an object from the source to the target frame, None where unknown."""
         poses = self._poses.get(number)
         if poses is None or not np.isfinite(poses[[source_k, target_k]]).all():
             return None
         return poses[target_k] @ inverse(poses[source_k])
 
-    def _followed(self, number: int, source_k: int, target_k: int) -> Transform:
-        """The same by the motions that were fitted at the frames at which the object is seen."""
+    def _integrated(self, number: int, source_k: int, target_k: int) -> Transform:
+        """Motion (4, 4) by the twists of the frames in which the object is seen."""
         seen = [
             (float(self._seconds[k]), frame.twists[number])
             for k in range(source_k, target_k + 1)
             if (frame := self._frame(k)) is not None and number in frame.twists
         ]
-        # Until the end as it was seen last.
+        # The last twist holds until the target frame.
         seen.append((float(self._seconds[target_k]), seen[-1][1]))
         motion = np.eye(4)
         for (before, first), (after, second) in pairwise(seen):
@@ -137,10 +136,10 @@ class PointTruths:
 
 
 def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)
-    """The fields of a PointCloud2, (N,) each.
+    """Fields of a PointCloud2, (N,) each.
 
     Raises:
-        RecordingError: the cloud has fewer bytes than its size says.
+        RecordingError: the cloud has too few bytes for its size, or fields that do not fit.
     """
     count, step = cloud.width * cloud.height, cloud.point_step
     data = bytes(cloud.data)
@@ -172,7 +171,7 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_ms
 
 
 def _nearest(messages: Stamps, stamps: Stamps, tolerance: float) -> NDArray[np.int64]:
-    """For each stamp the message nearest to it, -1 where none is within the tolerance."""
+    """Index of the nearest message of each stamp, -1 where none is within the tolerance."""
     order = np.argsort(messages, kind="stable")
     ordered = messages[order]
     after = np.clip(np.searchsorted(ordered, stamps), 0, len(ordered) - 1)
@@ -185,16 +184,16 @@ def _nearest(messages: Stamps, stamps: Stamps, tolerance: float) -> NDArray[np.i
 
 
 def _rows(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
-    """The row of the table that belongs to each point of a cloud, -1 where there is none."""
+    """Row of the table of each point of a cloud, -1 where there is none."""
     if {"sensor", "zone"} <= set(table):
         rows = _rows_by_zone(table, cloud)
         known = rows >= 0
-        places = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)[rows[known]]
-        apart = np.linalg.norm(places - cloud.points[known], axis=1)
-        # Others may number their sensors in another order; then the places do not agree.
-        if len(apart) and np.median(apart) <= _NEAREST:
+        positions = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)[rows[known]]
+        distance = np.linalg.norm(positions - cloud.points[known], axis=1)
+        # Other writers may number the sensors in another order; then the positions disagree.
+        if len(distance) and np.median(distance) <= _NEAREST:
             return rows
-    return _rows_by_place(table, cloud)
+    return _rows_by_position(table, cloud)
 
 
 def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
@@ -203,16 +202,16 @@ def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.in
     zones = cloud.ranges[0].size
     sensor, zone = table["sensor"], table["zone"]
     inside = np.flatnonzero((sensor >= 0) & (sensor < sensors) & (zone >= 0) & (zone < zones))
-    # The file counts the zones of a sensor's own grid, a cloud those of the largest.
+    # Zones are numbered in the sensor's own grid in the file, in the largest grid in a cloud.
     own = np.isfinite(cloud.directions[:, 0, :, 0]).sum(axis=-1)[sensor[inside]]
     row, column = np.divmod(zone[inside], np.maximum(own, 1))
-    place = sensor[inside] * zones + row * columns + column
+    index = sensor[inside] * zones + row * columns + column
     known = row < cloud.ranges.shape[1]
-    rows[place[known]] = inside[known]
+    rows[index[known]] = inside[known]
     return rows[cloud.sensor * zones + cloud.zone]
 
 
-def _rows_by_place(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+def _rows_by_position(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
     points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
     if len(cloud.points) == 0:
         return np.full(len(cloud.points), -1, dtype=np.int64)

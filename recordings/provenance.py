@@ -7,14 +7,14 @@ from recordings.frame import Provenance
 from recordings.mcap_file import McapFile
 
 PROVENANCE_RECORD = "tofscope"
-_UNSAID = ("imperfections", "rig")
+_OPTIONAL = ("imperfections", "rig")
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
-    """The provenance of a file by its metadata; None for files that we did not write.
+    """Provenance of a file by its metadata; None for files of other writers.
 
     Raises:
-        RecordingError: the record is not as we write it.
+        RecordingError: a value of the record is missing or wrong.
     """
     record = file.metadata.get(PROVENANCE_RECORD)
     if record is None:
@@ -40,8 +40,8 @@ def provenance_of(file: McapFile) -> Provenance | None:
 
 
 def provenance_record(provenance: Provenance) -> dict[str, str]:
-    """The metadata record of a file that comes from there."""
+    """Metadata record of a provenance."""
     values = asdict(provenance) | {"imperfections": " ".join(provenance.imperfections)}
-    # What an older file does not say stays unsaid, so that nothing in it changes.
-    values = {name: v for name, v in values.items() if v != "" or name not in _UNSAID}
+    # Empty values are left out, so that the record of an older file stays the same.
+    values = {name: v for name, v in values.items() if v != "" or name not in _OPTIONAL}
     return {name: str(v).lower() if isinstance(v, bool) else str(v) for name, v in values.items()}

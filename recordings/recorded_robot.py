@@ -1,4 +1,4 @@
-"""The robot of a recording, and the frames of /tf that are its links."""
+"""Robot of a recording, and the frames of its links in /tf."""
 
 from collections.abc import Collection
 
@@ -11,7 +11,7 @@ from robot_assets import Robot, RobotError, load_robot
 def recorded_robot(
     topics: list[Topic], decoder: Decoder, joints: list[str]
 ) -> tuple[Robot | None, list[str]]:
-    """Find the robot of a recording: the one that it describes, or a Panda by its joints.
+    """Find the robot of a recording: by its description, or a Panda by its joints.
 
     Args:
         topics: of the file.
@@ -19,7 +19,7 @@ def recorded_robot(
         joints: all recorded names.
 
     Returns:
-        The robot, None where there is none, and sentences about why there is none.
+        The robot, None where there is none, and warnings about the reason.
     """
     described = next((topic for topic in topics if topic.use is Use.ROBOT), None)
     if described is not None:
@@ -29,18 +29,18 @@ def recorded_robot(
             return None, [str(error)]
         return robot, []
     panda = load_robot()
-    match, said = matched(panda, joints)
+    match, more = matched(panda, joints)
     arm = [joint for joint in panda.joint_names if "finger" not in joint]
     if set(arm) <= set(match.joints.values()):
         return panda, []
-    return None, said if match.rivals else []
+    return None, more if match.rivals else []
 
 
 def link_frames(robot: Robot, prefix: str | None, frames: Collection[str]) -> dict[str, str]:
-    """Find out how a recording's /tf calls the links of its robot.
+    """Find the names of a robot's links in the recording's /tf.
 
-    Joints and links are given the same prefix by whoever publishes them, `fr3_joint1` goes with
-    `fr3_link0`; a namespace before the joints, as in `left/fr3_joint1`, may be missing in /tf.
+    Publishers give joints and links the same prefix: `fr3_joint1` goes with `fr3_link0`. A
+    namespace before the joints, as in `left/fr3_joint1`, may be missing in /tf.
 
     Args:
         robot: the robot.
@@ -48,7 +48,7 @@ def link_frames(robot: Robot, prefix: str | None, frames: Collection[str]) -> di
         frames: of /tf.
 
     Returns:
-        {link: frame} of every link; the link's own name where /tf has none by the prefix.
+        {link: frame} of every link; the link's own name where /tf has no link with the prefix.
     """
     prefix = (prefix or "").lstrip("/")
     for candidate in dict.fromkeys([prefix, prefix.rpartition("/")[2]]):

@@ -1,4 +1,4 @@
-"""A recording: frames of sensors, placed in a fixed frame, with the truth where it is known."""
+"""Recording: clouds of its frames in a fixed frame, robot poses, and truth."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,13 +24,13 @@ from recordings.truth import ObjectTruth, PairTruth, RigidTruth
 from robot_assets import Rig, Robot, SelfFilter, Transform
 
 _CACHED_FRAMES, _LEAST_CACHED = 512, 16
-_CACHED_ZONES = 2**20  # of all frames that are kept, each some 50 bytes
+_CACHED_ZONES = 2**20  # of all cached frames, each some 50 bytes
 DEFAULT_MAX_RANGE = 4.0
 
 
 @dataclass(frozen=True)
 class Parts:
-    """What `open_recording` puts together for a Recording."""
+    """Parts of a `Recording`, made by `open_recording`."""
 
     file: McapFile
     decoder: Decoder
@@ -48,20 +48,20 @@ class Parts:
 
 
 class Recording:
-    """An opened recording; immutable, and safe to use from several threads.
+    """Opened recording; immutable and thread-safe.
 
-    Frames are decoded when they are asked for, and the last few hundred are kept.
+    Frames are decoded on first access, and the last few hundred are cached.
 
     Attributes:
         path: the file.
         name: the file's name without its ending.
         stamps: (K,) seconds, strictly increasing.
         sensors: in the order of `Cloud.sensor`.
-        fixed_frame: in which clouds and truth are.
-        truth_frame: whose rigid motion is the truth, None where it is not a frame's.
+        fixed_frame: frame of clouds and truth.
+        truth_frame: frame whose rigid motion is the truth, None for the recorded twist or pose.
         robot: None where there is none.
-        provenance: where it comes from, None for files that we did not write.
-        rig: with which it was simulated, None where the file does not hold it.
+        provenance: None for files of other writers.
+        rig: of the simulation, None where the file does not hold it.
         duplicates: frames dropped because a later one has the same stamp.
     """
 
@@ -78,9 +78,9 @@ class Recording:
         self.provenance = parts.provenance
         self.rig: Rig | None = parts.rig
         self.duplicates = parts.frames.duplicates
-        self._said: dict[str, None] = dict.fromkeys(parts.warnings)
+        self._warnings: dict[str, None] = dict.fromkeys(parts.warnings)
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
-        # A reading times its ray is the point in the optical frame.
+        # The point in the optical frame is the reading times its ray.
         self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
         with np.errstate(over="ignore", invalid="ignore"):  # intrinsics may be any numbers
             lengths = np.linalg.norm(self._rays, axis=-1, keepdims=True)
@@ -91,13 +91,13 @@ class Recording:
 
     @property
     def simulated(self) -> bool:
-        """Whether the readings were computed and not measured."""
+        """Whether the readings were simulated."""
         return self.provenance is not None and self.provenance.simulated
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """A sentence for whatever could not be used so far, frames that were read included."""
-        return tuple(self._said)
+        """Messages about unusable parts; reading further frames may add some."""
+        return tuple(self._warnings)
 
     @property
     def has_truth(self) -> bool:
@@ -124,11 +124,11 @@ class Recording:
         self.close()
 
     def close(self) -> None:
-        """Close the file; frames that were not read yet cannot be read any more."""
+        """Close the file; only cached frames can still be read."""
         self._parts.file.close()
 
     def cloud(self, k: int, max_range: float = DEFAULT_MAX_RANGE) -> Cloud:
-        """What the sensors saw at frame `k`.
+        """Cloud of frame `k`.
 
         Args:
             k: index of the frame, from 0.
@@ -157,7 +157,7 @@ class Recording:
     def truth(self, k: int) -> NDArray[np.float64] | None:
         """Velocity (3,) m/s of the moving object in the fixed frame, None where unknown.
 
-        That of the origin of its frame, where it turns or a truth frame is asked for.
+        For a rotating object or a truth frame it is the velocity of its origin.
         """
         k = self._checked(k)
         return self._parts.truth.at(k) if self._parts.truth else None
@@ -167,9 +167,8 @@ class Recording:
     ) -> NDArray[np.float64] | None:
         """Velocity (N, 3) m/s of each point of `cloud(k, max_range)`, zero where static.
 
-        With a truth frame, or where a pose is all there is of the truth, every point is taken to
-        move with it. None where the recording does not tell; NaN for single points of which it
-        does not.
+        With a truth frame, or where the only truth is a pose, every point is assumed to move with
+        it. None where the recording has no such truth; NaN for points without.
         """
         cloud = self.cloud(k, max_range)
         if self._everything_moves and isinstance(self._parts.truth, RigidTruth):
@@ -195,7 +194,7 @@ class Recording:
 
     @property
     def _everything_moves(self) -> bool:
-        """Whether every point is taken to move with the truth: one is asked for, or it is all."""
+        """Whether every point is assumed to move with the truth frame or the only recorded pose."""
         parts = self._parts
         rigid = isinstance(parts.truth, RigidTruth)
         return rigid and (parts.truth_frame is not None or parts.point_truths is None)
@@ -213,8 +212,8 @@ class Recording:
         for s, stream in enumerate(parts.streams):
             if (index := int(parts.frames.message[k, s])) < 0:
                 continue
-            told, codes = self._told(stream, index)
-            values[s] = padded(told, self._grid, np.nan)
+            distances, codes = self._readings_of(stream, index)
+            values[s] = padded(distances, self._grid, np.nan)
             if codes is not None:
                 status[s] = padded(codes, self._grid, NO_STATUS)
                 has_status = True
@@ -225,8 +224,8 @@ class Recording:
         visible = np.isfinite(points).all(axis=-1)
         link_poses = parts.robot.link_poses(k) if parts.robot else {}
         if self._self_filter and link_poses:
-            shown = np.where(visible, values, np.nan)
-            visible &= ~self._self_filter.shows_robot(shown, self._rays, T_fixed_sensor, link_poses)
+            valid = np.where(visible, values, np.nan)
+            visible &= ~self._self_filter.shows_robot(valid, self._rays, T_fixed_sensor, link_poses)
         return Reading(
             stamp=float(self.stamps[k]),
             directions=self._directions,
@@ -238,10 +237,10 @@ class Recording:
             visible=read_only(visible),
         )
 
-    def _told(
+    def _readings_of(
         self, stream: DepthStream, index: int
     ) -> tuple[NDArray[np.float64], NDArray[np.uint8] | None]:
-        """A sensor's readings in metres, and their status where there is one."""
+        """Readings of a sensor in metres, and their status, None without."""
         decoder = self._parts.decoder
         image = decoder.decode(stream.topic.channel, index)
         status = None
@@ -251,6 +250,6 @@ class Recording:
             codes = status_codes(status, stream.sensor) if status is not None else None
             return readings(image, status, stream.sensor, stream.form), codes
         except RecordingError as error:
-            # One bad image does not cost the frame; the sensor shows nothing there.
-            self._said[f"{stream.topic.name}: {error} Such images are left out."] = None
+            # One bad image does not cost the frame; only this sensor is left out.
+            self._warnings[f"{stream.topic.name}: {error} Such images are left out."] = None
             return np.full(stream.sensor.grid, np.nan), None

@@ -1,24 +1,24 @@
-"""The rig that a recording of ours was made with: an attachment of the file, and its topics."""
+"""Rig of our own recordings: an attachment of the file, and names of topics."""
 
 from recordings.mcap_file import McapFile
 from robot_assets import Rig, RigError, parse_rig, rig_text
 
 RIG_ATTACHMENT = "rig.toml"
-"""A rig file, as people give it with --rig."""
+"""Name of the attachment, a rig file as for --rig."""
 RIG_TYPE = "application/toml"
 _LARGEST = 1_000_000  # bytes; a thousand sensors need a third of it
 
 
 def packed(rig: Rig) -> bytes:
-    """The attachment that holds a rig."""
+    """Content of the attachment."""
     return rig_text(rig).encode("utf-8")
 
 
 def rig_of(file: McapFile) -> tuple[Rig | None, list[str]]:
-    """The rig that a recording of ours was made with, None where the file has none.
+    """Rig attached to a recording, None where there is none or it is not usable.
 
     Returns:
-        It, and a sentence where what is there is none that can be used.
+        The rig, and a warning where it is not usable.
     """
     content = file.attachments.get(RIG_ATTACHMENT)
     if content is None:
@@ -32,10 +32,10 @@ def rig_of(file: McapFile) -> tuple[Rig | None, list[str]]:
 
 
 def topic_part(sensor_name: str) -> str:
-    """The part of topics and frames that names a sensor."""
+    """Part of topics and frames that names a sensor."""
     return sensor_name.strip("/").replace(" ", "_")
 
 
 def depth_topic(part: str) -> str:
-    """The topic of a sensor's ranges."""
+    """Topic of a sensor's ranges."""
     return f"/tof/{part}/image"

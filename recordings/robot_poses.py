@@ -1,4 +1,4 @@
-"""Where the links of the recording's robot are."""
+"""Poses of the robot's links at the frames of a recording."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -13,14 +13,14 @@ _CACHED_FRAMES = 256
 
 
 class RobotPoses:
-    """The links of a robot at the frames of a recording.
+    """Poses of a robot's links at the frames of a recording.
 
     Args:
         robot: the robot.
-        positions: {joint: (K,) rad or m, NaN where unknown} of the joints that were recorded.
-        tree: poses of /tf; where it places the robot's base or its links it wins.
-        fixed_frame: in which links are placed.
-        link_frames: {link: its frame in /tf}; default: each is called like the link.
+        positions: {joint: (K,) rad or m, NaN where unknown} of the recorded joints.
+        tree: poses of /tf; its poses of base and links are preferred to forward kinematics.
+        fixed_frame: of the link poses.
+        link_frames: {link: its frame in /tf}; default: the link's name.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class RobotPoses:
         return {joint: value for joint, value in values.items() if np.isfinite(value)}
 
     def known(self, link: str, frames: int) -> NDArray[np.bool_]:
-        """(K,) whether `link_poses` has the link, without computing a pose by the joints."""
+        """(K,) whether `link_poses` has the link; no forward kinematics are computed."""
         if link not in self._frames:
             return np.zeros(frames, dtype=bool)
         by_joints = self._known_by_joints(frames)
@@ -61,7 +61,7 @@ class RobotPoses:
         return known
 
     def _known_by_joints(self, frames: int) -> dict[str, NDArray[np.bool_]]:
-        """{link: (K,) whether the known joints place it relative to the base}."""
+        """{link: (K,) whether its pose relative to the base is known by the joints}."""
         known = {link: np.zeros(frames, dtype=bool) for link in self.robot.links}
         names = list(self._positions)
         if not names:
@@ -92,7 +92,7 @@ class RobotPoses:
         return poses
 
     def _by_joints(self, k: int) -> dict[str, Transform]:
-        """{link: T_base_link (4, 4)} of the links that the known joints place."""
+        """{link: T_base_link (4, 4)} of the links whose pose is known by the joints."""
         joints = self.joint_positions(k)
         if not joints:
             return {}
@@ -107,6 +107,6 @@ class RobotPoses:
             return np.eye(4)
         for link, T_base_link in T_base_links.items():
             if self._frames[link] == self._fixed_frame:
-                # The fixed frame is a link that the joints place.
+                # The fixed frame is a link with forward kinematics.
                 return inverse(T_base_link)
         return self._tree.transform(self._fixed_frame, base, k)

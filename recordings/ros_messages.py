@@ -1,4 +1,4 @@
-"""ROS 2 messages as our writer makes them: standard types, serialised as CDR."""
+"""ROS 2 messages of our writer: standard types, serialised as CDR."""
 
 from typing import Any
 
@@ -25,12 +25,12 @@ _POINT_FIELD_TYPES = {"u1": 2, "u2": 4, "f4": 7}
 
 
 def schema_text(kind: str) -> bytes:
-    """The definition of a type such as "sensor_msgs/msg/Image", with all that it uses."""
+    """Definition of a type such as "sensor_msgs/msg/Image", with the types that it uses."""
     return _STORE.generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
 
 
 def serialise(message: Any) -> bytes:  # noqa: ANN401 (a message of any type)
-    """A message as CDR."""
+    """Serialise a message as CDR."""
     return bytes(_STORE.serialize_cdr(message, message.__msgtype__))
 
 
@@ -136,7 +136,7 @@ def text(data: str) -> Any:  # noqa: ANN401
 def twist(  # noqa: ANN201
     stamp: int, frame: str, velocity: NDArray[np.float64], turn_rate: NDArray[np.float64]
 ):
-    """geometry_msgs/TwistStamped of an origin's `velocity` (3,) m/s and `turn_rate` (3,) rad/s."""
+    """geometry_msgs/TwistStamped of a velocity (3,) m/s and an angular velocity (3,) rad/s."""
     motion = _make("geometry_msgs/msg/Twist", linear=_vector(velocity), angular=_vector(turn_rate))
     return _make("geometry_msgs/msg/TwistStamped", header=header(stamp, frame), twist=motion)
 
@@ -150,7 +150,7 @@ def pose(stamp: int, frame: str, T: NDArray[np.float64]) -> Any:  # noqa: ANN401
 
 
 def points(stamp: int, frame: str, truth: PointTruth, sensors: int) -> Any:  # noqa: ANN401
-    """sensor_msgs/PointCloud2 of the truth of every reading of so many sensors."""
+    """sensor_msgs/PointCloud2 of the truth of every reading; `sensors` is their number."""
     kinds = (*_POINT_FIELDS, ("sensor", "u1" if sensors <= _BYTE else "u2"), ("zone", "u2"))
     rows = np.zeros(len(truth.points), dtype=[(n, f"<{kind}") for n, kind in kinds])
     for i, axis in enumerate("xyz"):

@@ -1,4 +1,4 @@
-"""Names of a recording's sensors, by their topics."""
+"""Names of a recording's sensors, from rigs or topics."""
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
@@ -15,15 +15,15 @@ _Path = tuple[str, ...]
 def names_and_rings(
     topics: Sequence[str], *in_rigs: Sequence[Sensor | None]
 ) -> list[tuple[str, str]]:
-    """Name sensors, and their rings, like a rig's, or else by their topics.
+    """Name sensors and their rings as in a rig, or else by their topics.
 
-    Where several topics match one sensor of a rig, its name says nothing, and that of the next rig
-    or of the topic counts.
+    Where several topics match one sensor of a rig, its name is ambiguous, and the next rig or the
+    topic is used.
 
     Args:
         topics: of the depth images.
-        in_rigs: for each rig, the one that counts most first, the sensor of it that each topic
-            matches, None without.
+        in_rigs: for each rig, in order of preference, the sensor that each topic matches, None
+            without.
 
     Returns:
         (name, ring) for each topic, ring "" where it has none; names are unique.
@@ -40,23 +40,23 @@ def names_and_rings(
 
 
 def _one_each(sensors: Sequence[Sensor | None]) -> list[Sensor | None]:
-    """The sensors, None for those whose name another has, too."""
+    """Replace sensors whose name is not unique by None."""
     having = Counter(sensor.name for sensor in sensors if sensor)
     return [sensor if sensor and having[sensor.name] == 1 else None for sensor in sensors]
 
 
 def sensor_names(topics: Sequence[str], taken: Collection[str] = ()) -> list[str]:
-    """Name sensors by the shortest tails of their topics that tell them, and their rings, apart.
+    """Name sensors by the shortest ends of their topics that distinguish them and their rings.
 
-    The last part of a topic says what is in it ("image"), and is left out unless it is all that
-    tells two sensors apart. All tails have the same number of parts where the topics have so many.
+    The last part of a topic is its content ("image"), and is left out unless sensors differ only
+    there. All names have the same number of parts, as far as the topics have them.
 
     Args:
         topics: of the depth images, such as "/left/tof/base/0/image".
-        taken: names that other sensors have.
+        taken: names of other sensors.
 
     Returns:
-        A name for each topic, such as "base/0"; no two are equal, and none is in `taken`.
+        A name for each topic, such as "base/0"; names are unique, and none is in `taken`.
     """
     paths = [tuple(part for part in topic.split("/") if part.strip()) for topic in topics]
     above = [path[:-1] or path for path in paths]
@@ -71,13 +71,13 @@ def sensor_names(topics: Sequence[str], taken: Collection[str] = ()) -> list[str
 
 
 def ring_of(name: str) -> str:
-    """The ring of a sensor by its name: "base" of "base/0", "" where the name is no such one."""
+    """Ring of a sensor by its name: "base" of "base/0", "" where the name has no number."""
     ring, _, number = name.rpartition("/")
     return ring if number.isdigit() else ""
 
 
 def _rings_apart(stems: Sequence[_Path], tails: Sequence[_Path]) -> bool:
-    """Whether sensors with different rings in their whole paths have them in the tails, too."""
+    """Whether sensors whose rings differ in the whole paths have different rings in the tails."""
     rings = {
         (tail[:-1], stem[:-1])
         for stem, tail in zip(stems, tails, strict=True)
@@ -87,8 +87,8 @@ def _rings_apart(stems: Sequence[_Path], tails: Sequence[_Path]) -> bool:
 
 
 def _numbered(names: Iterable[str], taken: Collection[str]) -> list[str]:
-    """The names, with a number behind those that are in use already."""
-    # The same topic may be there with two types, and "/tof//0" beside "/tof/0".
+    """Make names unique by a number at the end."""
+    # A topic may exist with two types, and "/tof//0" beside "/tof/0".
     used = set(taken)
     result: list[str] = []
     for name in (name or _NAMELESS for name in names):

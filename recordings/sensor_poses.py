@@ -1,4 +1,4 @@
-"""Where the sensors are at each frame."""
+"""Poses of the sensors at each frame."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -15,12 +15,13 @@ from robot_assets import Sensor
 class SensorPoses:
     """Poses of the sensors of a recording in the fixed frame.
 
-    A sensor's frame in /tf wins; where /tf does not place it, the rig does, through the robot.
+    A sensor's pose is that of its frame in /tf; without one it comes from the rig's extrinsics and
+    the robot's link.
 
     Args:
         frames: optical frame of each sensor.
         tree: poses of /tf.
-        fixed_frame: in which they are placed.
+        fixed_frame: of the sensor poses.
         rig_sensors: the rig's sensor for each, None where none matches.
         robot: of the recording, None where there is none.
         count: number of frames of the recording.

@@ -1,4 +1,4 @@
-"""The sensors of a recording: their intrinsics, and their readings in metres."""
+"""Sensors of a recording: intrinsics, and readings in metres."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,23 +19,23 @@ from recordings.sensor_names import names_and_rings
 from robot_assets import Rig, SensorModel, plain_name, zone_rays
 from robot_assets import Sensor as RigSensor
 
-# ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); others are no distance,
-# even where the number looks plausible.
+# ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); with any other the reading is
+# no distance, however plausible.
 VALID_STATUS = (5, 9)
 
 
 @dataclass(frozen=True)
 class RecordedSensor:
-    """A sensor of a recording.
+    """Sensor of a recording.
 
     Attributes:
-        name: of the rig's sensor, or the part of its topic that tells it apart.
+        name: of the rig's sensor, or the distinguishing part of its topic.
         ring: name of its ring, "" where it has none.
         frame: its optical frame.
         directions: (rows, columns, 3), a reading times its direction is the point in the optical
             frame.
-        arrange: brings readings as the images hold them into the order of `directions`.
-        limits: (smallest, largest) reading in metres that counts.
+        arrange: reorders readings of an image into the order of `directions`.
+        limits: (smallest, largest) valid reading in metres.
         images: rows and columns of its images where they are not those of `directions`.
     """
 
@@ -58,14 +58,14 @@ def recorded_sensors(
 ) -> list[tuple[Topic, RecordedSensor, RigSensor | None]]:
     """Find the sensors of a recording.
 
-    Intrinsics come from the CameraInfo with the image's frame, or beside it in the tree of topics.
-    A rig that was given, or a recording without CameraInfo, takes them from the rig's model.
+    Intrinsics are those of the chosen rig, else of the CameraInfo with the image's frame or beside
+    it in the tree of topics, else a field of view of 45 degrees.
 
     Args:
         topics: of the file.
         decoder: of the file.
-        rig: one that a person chose, None to use the recording's own intrinsics.
-        own: the rig that the recording was made with, which names its sensors.
+        rig: the user's choice, None to use the recording's own intrinsics.
+        own: the rig in the file, which names the sensors.
 
     Returns:
         For each depth topic its sensor, and the sensor of the rig that it matches by name.
@@ -97,7 +97,7 @@ def rig_sensors(topics: list[Topic], rig: Rig) -> list[RigSensor | None]:
 def unfit_intrinsics(
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]], topics: list[Topic]
 ) -> list[str]:
-    """Sentences about sensors whose CameraInfo is for images of another size, and without a rig."""
+    """Warnings about sensors without a rig whose CameraInfo is for images of another size."""
     warnings: list[str] = []
     for topic in [topic for topic, _, in_rig in found if in_rig is None]:
         infos = _infos(topic, topics)
@@ -110,7 +110,7 @@ def unfit_intrinsics(
 
 
 def _infos(topic: Topic, topics: list[Topic]) -> list[Topic]:
-    """Intrinsics that may be a depth topic's: with its frame first, then beside it in the tree."""
+    """Candidate intrinsics of a depth topic: those with its frame first, then those beside it."""
     infos = [info for info in topics if info.use is Use.CAMERA_INFO]
     return [
         *(info for info in infos if info.frame == topic.frame),
@@ -178,7 +178,7 @@ def _status_pixels(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  #
 
 
 def _sensor_of(rig: Rig, topic: Topic) -> RigSensor | None:
-    """The sensor of a rig whose name stands in the topic or in its frame."""
+    """Sensor of a rig whose name is part of the topic or of its frame."""
     texts = [f"_{plain_name(text)}_" for text in (parent(topic.name), topic.frame)]
     fitting = [s for s in rig.sensors if any(f"_{plain_name(s.name)}_" in text for text in texts)]
     return max(fitting, key=lambda s: len(s.name), default=None)
@@ -193,7 +193,7 @@ def _by_model(name: str, ring: str, topic: Topic, model: SensorModel) -> Recorde
 
 def _by_camera_info(name: str, ring: str, topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401
     # REP 118: a depth image holds distances along the optical axis, in the order of the optical
-    # frame, so the camera matrix is all that is needed.
+    # frame, so that only the camera matrix is needed.
     fx, fy, cx, cy = camera_matrix(info)
     rows, columns = _grid(topic)
     return RecordedSensor(

@@ -1,4 +1,4 @@
-"""Header stamps of all messages in one attachment, so that opening need not look into messages."""
+"""Attachment with the header stamps of all messages, so that opening a file reads no message."""
 
 import io
 import zipfile

@@ -1,4 +1,4 @@
-"""Things that were sampled over time, asked for at other times."""
+"""Interpolation of sampled poses and vectors at other times."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ Stamps = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class PoseTrack:
-    """A pose over time.
+    """Sampled pose over time.
 
     Attributes:
         stamps: (N,) nanoseconds, strictly increasing.
@@ -24,19 +24,19 @@ class PoseTrack:
     rotation: NDArray[np.float64]
 
     def at(self, stamps: Stamps) -> NDArray[np.float64]:
-        """Poses (K, 4, 4), linear in position and spherical in rotation, NaN outside the track."""
+        """Poses (K, 4, 4), linear in position and slerp in rotation, NaN outside the track."""
         poses = np.full((len(stamps), 4, 4), np.nan)
         known = (stamps >= self.stamps[0]) & (stamps <= self.stamps[-1])
         if not known.any():
             return poses
         # Seconds from the start: nanoseconds since 1970 do not fit a float.
         times = (self.stamps - self.stamps[0]) * 1e-9
-        asked = (stamps[known] - self.stamps[0]) * 1e-9
+        wanted = (stamps[known] - self.stamps[0]) * 1e-9
         poses[known] = np.eye(4)
-        poses[known, :3, 3] = _linear(asked, times, self.translation)
+        poses[known, :3, 3] = _linear(wanted, times, self.translation)
         if len(times) > 1:
-            turned = Slerp(times, Rotation.from_quat(self.rotation))(asked)
-            poses[known, :3, :3] = turned.as_matrix()
+            rotations = Slerp(times, Rotation.from_quat(self.rotation))(wanted)
+            poses[known, :3, :3] = rotations.as_matrix()
         else:
             poses[known, :3, :3] = Rotation.from_quat(self.rotation[0]).as_matrix()
         return poses
@@ -45,10 +45,9 @@ class PoseTrack:
 def pose_track(
     stamps: NDArray[np.int64], translation: NDArray[np.float64], rotation: NDArray[np.float64]
 ) -> PoseTrack | None:
-    """Make a track of poses in any order; of equal stamps the last counts.
+    """Make a track of poses in any order; of equal stamps the last is used.
 
-    Poses with numbers that are not finite or a quaternion of length zero are left out; None where
-    nothing is left.
+    Poses that are not finite or have a zero quaternion are left out; None where none is left.
     """
     length = np.linalg.norm(rotation, axis=1)
     good = np.isfinite(translation).all(axis=1) & np.isfinite(length) & (length > 1e-6)
@@ -63,7 +62,7 @@ def pose_track(
 
 @dataclass(frozen=True)
 class VectorTrack:
-    """A vector over time, such as a velocity.
+    """Sampled vector over time, such as a velocity.
 
     Attributes:
         stamps: (N,) nanoseconds, strictly increasing.
@@ -79,10 +78,10 @@ class VectorTrack:
         The first and the last sample hold for one more sampling period; NaN further outside.
         """
         times = (self.stamps - self.stamps[0]) * 1e-9
-        asked = (stamps - self.stamps[0]) * 1e-9
-        values = _linear(asked, times, self.values)
+        wanted = (stamps - self.stamps[0]) * 1e-9
+        values = _linear(wanted, times, self.values)
         margin = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-        values[(asked < -margin) | (asked > times[-1] + margin)] = np.nan
+        values[(wanted < -margin) | (wanted > times[-1] + margin)] = np.nan
         return values
 
     def mean(self, start: int, end: int) -> NDArray[np.float64]:
@@ -94,7 +93,7 @@ class VectorTrack:
 
 
 def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> VectorTrack | None:
-    """Make a track of vectors in any order; of equal stamps the last counts, None where empty."""
+    """Make a track of vectors in any order; of equal stamps the last is used. None where empty."""
     good = np.isfinite(values).all(axis=1)
     stamps, values = stamps[good], values[good]
     if len(stamps) == 0:
@@ -105,6 +104,6 @@ def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> Vect
 
 
 def _linear(
-    asked: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64]
+    wanted: NDArray[np.float64], times: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    return np.stack([np.interp(asked, times, column) for column in values.T], axis=-1)
+    return np.stack([np.interp(wanted, times, column) for column in values.T], axis=-1)

@@ -1,4 +1,4 @@
-"""Where frames are: the tree of /tf and /tf_static."""
+"""Transform tree of /tf and /tf_static."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -34,7 +34,7 @@ class TransformTree:
     Args:
         parents: {frame: its parent}.
         poses: {frame: T_parent_frame, (K, 4, 4) over the recording's frames or (1, 4, 4) where it
-            never changes, NaN where unknown}.
+            is constant, NaN where unknown}.
     """
 
     def __init__(self, parents: Mapping[str, str], poses: Mapping[str, Transform]) -> None:
@@ -47,24 +47,24 @@ class TransformTree:
         return set(self._parents) | set(self._parents.values())
 
     def root_of(self, frame: str) -> str:
-        """The frame from which `frame` descends and that has no parent."""
+        """Root of the tree that contains `frame`."""
         return self.path_to_root(frame)[-1]
 
     def path_to_root(self, frame: str) -> list[str]:
-        """`frame`, its parent and so on, up to the root; a loop is cut where it closes."""
+        """`frame` and its ancestors up to the root; a loop is cut where it closes."""
         path = [frame]
         while (parent := self._parents.get(path[-1])) is not None and parent not in path:
             path.append(parent)
         return path
 
     def connected(self, a: str, b: str) -> bool:
-        """Whether some chain of poses leads from `a` to `b`."""
+        """Whether a chain of poses leads from `a` to `b`."""
         return a == b or bool(set(self.path_to_root(a)) & set(self.path_to_root(b)))
 
     def moves(self, a: str, b: str) -> bool:
         """Whether the pose between two connected frames changes over the recording.
 
-        Poses that are measured tremble; a millimetre and a milliradian are no motion.
+        Changes within a millimetre and a milliradian are noise of measured poses.
         """
         up, down = self._branches(a, b)
         changing = [frame for frame in [*up, *down] if len(self._poses[frame]) > 1]
@@ -75,7 +75,7 @@ class TransformTree:
         return len(known) == 0 or bool(np.ptp(known, axis=0).max() > _STILL)
 
     def transform(self, a: str, b: str, k: int) -> Transform:
-        """T_a_b (4, 4) at frame `k`, NaN where the frames are not connected or it is unknown."""
+        """T_a_b (4, 4) at frame `k`, NaN where it is unknown or the frames are not connected."""
         return self._between(a, b, k)
 
     def over(self, a: str, b: str, frames: int) -> Transform:
@@ -87,14 +87,14 @@ class TransformTree:
         return np.asarray(np.isfinite(self.over(a, b, frames)).all(axis=(1, 2)))
 
     def _between(self, a: str, b: str, frames: int | slice) -> Transform:
-        """T_a_b (4, 4) at a frame, or (K, 4, 4) at several, (4, 4) where it never changes."""
+        """T_a_b (4, 4) at a frame, or (K, 4, 4) at several, (4, 4) where it is constant."""
         if not self.connected(a, b):
             return np.full((4, 4), np.nan)
         up, down = self._branches(a, b)
         return inverse(self._chain(up, frames)) @ self._chain(down, frames)
 
     def _branches(self, a: str, b: str) -> tuple[list[str], list[str]]:
-        """The frames from `a`, and from `b`, up to below the first that both descend from."""
+        """Frames from `a`, and from `b`, up to below their lowest common ancestor."""
         path_a, path_b = self.path_to_root(a), self.path_to_root(b)
         common = next(frame for frame in path_a if frame in path_b)
         return path_a[: path_a.index(common)], path_b[: path_b.index(common)]
@@ -108,7 +108,7 @@ class TransformTree:
 
 
 def inverse(T: Transform) -> Transform:
-    """The inverse of rigid transformations (..., 4, 4)."""
+    """Inverse of rigid transformations (..., 4, 4)."""
     back = np.swapaxes(T[..., :3, :3], -1, -2)
     result = np.zeros_like(T)
     result[..., :3, :3] = back
@@ -128,7 +128,7 @@ def read_transforms(
         stamps: (K,) nanoseconds of the recording's frames.
 
     Returns:
-        The tree, and sentences about what could not be used.
+        The tree, and warnings about frames that could not be used.
     """
     parents: dict[str, str] = {}
     moving: dict[str, _Samples] = {}

@@ -1,4 +1,4 @@
-"""How the moving object truly moved."""
+"""Truth of the moving object's motion."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -12,13 +12,13 @@ from recordings.transforms import inverse
 
 @dataclass(frozen=True)
 class PairTruth:
-    """The truth over a pair, as the mean over its interval; a recording's arrays are read-only.
+    """Truth over a pair, as the mean over its interval; a recording's arrays are read-only.
 
     Attributes:
-        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it: where it
-            turns, every point is carried round with it.
+        velocity: (N, 3) m/s of the moving object, as if each source point belonged to it; a
+            rotating object carries every point round with it.
         points: (N, 3) m/s of each source point itself, zero where static, NaN where unknown;
-            None where the recording does not say.
+            None where the recording has no truth of points.
     """
 
     velocity: NDArray[np.float64]
@@ -26,7 +26,7 @@ class PairTruth:
 
 
 class ObjectTruth(Protocol):
-    """The motion of the moving object in the fixed frame."""
+    """Motion of the moving object in the fixed frame."""
 
     def at(self, k: int) -> NDArray[np.float64] | None:
         """Velocity (3,) m/s at frame `k`, None where unknown."""
@@ -40,19 +40,19 @@ class ObjectTruth(Protocol):
 
 
 class TwistTruth:
-    """An object taken to be in pure translation, whose velocity was recorded.
+    """Object with a recorded velocity, assumed to be in pure translation.
 
     Args:
         track: velocity in the fixed frame.
         stamps: (K,) nanoseconds of the frames.
-        turns: whether the recording says that it turns, too.
+        rotates: whether the recorded twist has an angular velocity.
 
     Attributes:
-        turns: the same.
+        rotates: as given.
     """
 
-    def __init__(self, track: VectorTrack, stamps: Stamps, turns: bool = False) -> None:
-        self.turns = turns
+    def __init__(self, track: VectorTrack, stamps: Stamps, rotates: bool = False) -> None:
+        self.rotates = rotates
         self._track, self._stamps = track, stamps
         self._at_frames = track.at(stamps)
 
@@ -70,7 +70,7 @@ class TwistTruth:
 
 
 class RigidTruth:
-    """An object that moves rigidly with a frame whose pose was recorded.
+    """Object that moves rigidly with a frame whose pose was recorded.
 
     Args:
         T_fixed_object: (K, 4, 4) at the frames, NaN where unknown.
@@ -82,9 +82,9 @@ class RigidTruth:
         self._seconds = (stamps - stamps[0]) * 1e-9
 
     def at(self, k: int) -> NDArray[np.float64] | None:
-        """Velocity (3,) m/s of the frame's origin at frame `k`.
+        """Velocity (3,) m/s of the frame's origin at frame `k`, None where unknown.
 
-        The difference between the neighbouring frames, one-sided at the ends; None where unknown.
+        Central difference of the neighbouring frames, one-sided at the ends.
         """
         before, after = max(k - 1, 0), min(k + 1, len(self._seconds) - 1)
         if before == after:
@@ -111,11 +111,11 @@ class RigidTruth:
 
 
 class TurningTruth:
-    """An object that turns, whose velocity and pose were recorded.
+    """Rotating object whose velocity and pose were recorded.
 
     Args:
         twist: velocity of the object's origin.
-        rigid: its pose, by which points are carried along.
+        rigid: its pose, which carries the points along.
     """
 
     def __init__(self, twist: TwistTruth, rigid: RigidTruth) -> None:

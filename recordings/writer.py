@@ -1,4 +1,4 @@
-"""Writing recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
+"""Writer of recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
 import os
 from pathlib import Path
@@ -26,15 +26,15 @@ _STREAMED = "- durability: volatile\n  reliability: reliable\n  history: keep_la
 
 
 class RecordingWriter:
-    """Writes frames into an MCAP file, with the rig beside them; use it in a `with` statement.
+    """Writer of frames and their rig into an MCAP file; use it in a `with` statement.
 
-    The file appears under its name when it is complete; where writing fails nothing is left.
+    The file appears under its name once it is complete; a failed one is removed.
 
     Args:
-        path: of the file; one that exists is replaced.
-        robot: that wears the sensors.
+        path: of the file; an existing file is replaced.
+        robot: that carries the sensors.
         rig: its sensors.
-        provenance: where the readings come from.
+        provenance: of the readings.
 
     Raises:
         RecordingError: the file cannot be written.
@@ -86,7 +86,7 @@ class RecordingWriter:
             self._write_constants(stamp)
         self._add("/joint_states", ros.joint_state(stamp, base, frame.joint_positions), stamp)
         self._add("/tf", ros.transforms(stamp, self._moving_poses(frame)), stamp)
-        # A depth image holds distances along the optical axis, whatever the sensor reports.
+        # A depth image holds distances along the optical axis; a sensor may report them radially.
         ranges = frame.ranges * self._rig.model.directions[..., 2]
         for i, name in enumerate(self._names):
             image = ros.depth_image(stamp, _frame_id(name), ranges[i])

@@ -69,11 +69,11 @@ class SensorModel:
 
     def delivers(self, rows: int, columns: int) -> bool:
         """Whether the driver's images can have this size."""
-        turned = self.reading_order == "column_major" and (columns, rows) == (
+        transposed = self.reading_order == "column_major" and (columns, rows) == (
             self.rows,
             self.columns,
         )
-        return turned or (rows, columns) == (self.rows, self.columns)
+        return transposed or (rows, columns) == (self.rows, self.columns)
 
     def arrange(self, readings: NDArray[Any]) -> NDArray[Any]:
         """Reorder readings as delivered by the driver into this model's (rows, columns)."""

@@ -1,8 +1,8 @@
-"""The recordings that come with Tofscope; all of them are simulated."""
+"""Sample recordings that come with Tofscope; all of them are simulated."""
 
 from pathlib import Path
 
 
 def sample_paths() -> list[Path]:
-    """The shipped sample recordings, by name."""
+    """Paths of the sample recordings, sorted by name."""
     return sorted(Path(__file__).parent.glob("*.mcap"))

@@ -48,8 +48,8 @@ def inverse_kinematics(
 
 
 def _difference(wanted: Transform, current: Transform) -> np.ndarray:
-    turn = Rotation.from_matrix(wanted[:3, :3] @ current[:3, :3].T).as_rotvec()
-    return np.concatenate([wanted[:3, 3] - current[:3, 3], turn])
+    rotation = Rotation.from_matrix(wanted[:3, :3] @ current[:3, :3].T).as_rotvec()
+    return np.concatenate([wanted[:3, 3] - current[:3, 3], rotation])
 
 
 def _jacobian(poses: Mapping[str, Transform]) -> np.ndarray:

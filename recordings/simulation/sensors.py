@@ -10,7 +10,7 @@ from recordings.simulation.edges import Edges, ZoneHits, edges
 from robot_assets import RayCaster, Rig, SensorModel, zone_rays
 
 _SUB_RAYS = 4  # along each side of a zone
-_FAR = 1e3  # metres, in place of inf for rays that meet nothing
+_FAR = 1e3  # metres, in place of inf for rays that hit nothing
 
 
 @dataclass(frozen=True)

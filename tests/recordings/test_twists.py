@@ -14,8 +14,8 @@ numbers = st.lists(st.floats(-2, 2), min_size=3, max_size=3).map(np.array)
 def test_a_rigid_motion_is_found_again(turn: np.ndarray, shift: np.ndarray):
     true = Twist(turn, shift)
     found = fitted_twist(POINTS, true.velocity(POINTS))
-    assert found.turn == pytest.approx(turn, abs=1e-9)
-    assert found.shift == pytest.approx(shift, abs=1e-9)
+    assert found.angular == pytest.approx(turn, abs=1e-9)
+    assert found.linear == pytest.approx(shift, abs=1e-9)
 
 
 def test_following_a_turn_is_a_rotation():
@@ -31,8 +31,8 @@ def test_following_a_turn_is_a_rotation():
 def test_few_points_tell_their_mean_velocity_and_no_turn(count: int):
     velocity = np.random.default_rng(1).normal(size=(count, 3))
     found = fitted_twist(POINTS[:count], velocity)
-    assert not found.turn.any()
-    assert found.shift == pytest.approx(velocity.mean(axis=0))
+    assert not found.angular.any()
+    assert found.linear == pytest.approx(velocity.mean(axis=0))
 
 
 def test_points_in_a_line_do_not_tell_the_turn_about_it():
@@ -40,12 +40,12 @@ def test_points_in_a_line_do_not_tell_the_turn_about_it():
     noise = 1e-3 * np.random.default_rng(2).normal(size=line.shape)
     true = Twist(np.array([0.4, 0.0, 0.0]), np.zeros(3))
     found = fitted_twist(line, true.velocity(line) + noise)
-    assert found.turn[0] == pytest.approx(0.4, abs=0.01)
-    assert found.turn[2] == pytest.approx(0.0, abs=1e-12)
+    assert found.angular[0] == pytest.approx(0.4, abs=0.01)
+    assert found.angular[2] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_numbers_that_are_none_are_left_out():
     velocity = np.tile([0.1, 0.0, 0.0], (40, 1))
     velocity[3] = np.nan
-    assert fitted_twist(POINTS, velocity).shift == pytest.approx([0.1, 0.0, 0.0])
-    assert not fitted_twist(POINTS, np.full((40, 3), np.nan)).shift.any()
+    assert fitted_twist(POINTS, velocity).linear == pytest.approx([0.1, 0.0, 0.0])
+    assert not fitted_twist(POINTS, np.full((40, 3), np.nan)).linear.any()
