@@ -17,6 +17,7 @@ the same recordings, together with coverage and precision.
 """
 
 import math
+import re
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
@@ -69,6 +70,11 @@ class MetricInfo:
         """Its title with its unit."""
         return f"{self.title} {self.unit}".strip()
 
+    @property
+    def spec(self) -> str:
+        """Format specification of its values, with a sign where it is signed."""
+        return f"+{self.form}" if self.kind == "signed" else self.form
+
     def text(self, value: float | None) -> str:
         """Format a value, – where it is undefined."""
         return "–" if value is None or math.isnan(value) else format(value, self.form)
@@ -85,6 +91,8 @@ def _metric(
     form: str = ".3f",
     plotted: bool = False,
 ) -> Any:  # noqa: ANN401 (a dataclass field)
+    if not re.fullmatch(r"d|\.\d+f", form):
+        raise ValueError(f"{title}: a format is written d or .3f, and not {form!r}.")
     info = MetricInfo(title, short or title, unit, form, kind, definition, source, plotted)
     return field(metadata={"metric": info})
 

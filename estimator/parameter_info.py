@@ -81,6 +81,11 @@ def infos_of(declaring: type) -> dict[str, ParameterInfo]:
                 f"{declaring.__name__}.{each.name} must be int, float, bool or str, optionally "
                 f"None, with a default; got {hints[each.name]}."
             )
+        if optional and not declared.low > 0:
+            raise TypeError(
+                f"{declaring.__name__}.{each.name} may be unset, for which controls show 0; its "
+                "range must begin above 0."
+            )
         found[each.name] = replace(declared, kind=kinds[0], optional=optional, default=each.default)
     return found
 

@@ -152,15 +152,15 @@ def _by_content(channel: ChannelInfo, kind: str, first: Any) -> Topic:  # noqa: 
         grid = (first.height, first.width) if use in _WITH_GRID else None
         return Topic(channel, use, frame=frame, grid=grid)
     ranges = range_format(kind)
-    found = ranges.grid(first) if ranges else use
+    found = ranges.grid(first) if ranges else ""
     if isinstance(found, str):
-        return Topic(channel, Use.NOTHING, found, frame)
+        return Topic(channel, Use.NOTHING, "; ".join(filter(None, (use, found))), frame)
     return Topic(channel, Use.DEPTH, frame=frame, grid=found)
 
 
 def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded message)
     is_status = is_grid(image.height, image.width) and image.encoding in _STATUS_ENCODINGS
-    return Use.STATUS if is_status else "it is no status"
+    return Use.STATUS if is_status else ""  # or ranges, whose format says why it is none
 
 
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401

@@ -184,7 +184,8 @@ def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
     others = f" and {len(topics) - 6} more" if len(topics) > 6 else ""
     held = f"it holds {', '.join(listed)}{others}" if topics else "it holds no topics"
     return (
-        f"{file.path} has no depth images of {SIZES}, so there is nothing to estimate from; {held}."
+        f"{file.path} has no ranges of a sensor, such as depth images of {SIZES}, so there is "
+        f"nothing to estimate from; {held}."
     )
 
 

@@ -13,7 +13,7 @@ from scipy.spatial import KDTree
 from recordings.cloud import Cloud
 from recordings.contents import Topic
 from recordings.decoding import Decoder
-from recordings.errors import RecordingError
+from recordings.point_clouds import fields_of
 from recordings.tracks import Stamps
 from recordings.transforms import Transform, inverse
 from recordings.twists import Twist, fitted_twist
@@ -125,7 +125,7 @@ class PointTruths:
         index = int(self._message[k])
         if index < 0:
             return None
-        table = fields_of(self._decoder.decode(self._topic.channel, index))
+        table = truth_fields(self._decoder.decode(self._topic.channel, index))
         points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
         velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
         twists = {
@@ -135,35 +135,13 @@ class PointTruths:
         return _FrameTruth(table, points, velocity, twists)
 
 
-def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)
-    """Fields of a PointCloud2, (N,) each.
+def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)
+    """Fields of a cloud with the truth of points, (N,) each: floats, and numbers as integers.
 
     Raises:
         RecordingError: the cloud has too few bytes for its size, or fields that do not fit.
     """
-    count, step = cloud.width * cloud.height, cloud.point_step
-    data = bytes(cloud.data)
-    names = [f.name for f in cloud.fields]
-    fits = all(
-        f.datatype in _KINDS and f.offset + np.dtype(_KINDS[f.datatype]).itemsize <= step
-        for f in cloud.fields
-    )
-    if len(data) < count * step or not fits or len(set(names)) < len(names):
-        raise RecordingError(
-            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes for {count} "
-            f"points of {step}, and the fields {', '.join(names)}, which does not fit together."
-        )
-    order = ">" if cloud.is_bigendian else "<"
-    layout = np.dtype(
-        {
-            "names": [f.name for f in cloud.fields],
-            "formats": [order + _KINDS[f.datatype] for f in cloud.fields],
-            "offsets": [f.offset for f in cloud.fields],
-            "itemsize": step,
-        }
-    )
-    rows = np.frombuffer(data, dtype=layout, count=count)
-    table = {name: rows[name].astype(np.float64) for name in names}
+    table = {name: values.astype(np.float64) for name, values in fields_of(cloud).items()}
     return {
         name: values if name in _REAL else np.nan_to_num(values, nan=-1.0).astype(np.int64)
         for name, values in table.items()

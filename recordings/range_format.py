@@ -21,8 +21,12 @@ class RangeFormat:
             is a sensor's.
         ranges: (rows, columns) metres along the optical axis, in the order of the message; what is
             not finite, or not above 0, is no range. RecordingError where the message is broken.
+        directions: (rows, columns, 3) rays with z = 1 in the sensor's frame (REP 103, optical), NaN
+            where a zone's is not known, for messages that know them; they count where neither a
+            rig nor a CameraInfo gives intrinsics. None where messages know none.
     """
 
     type: str
     grid: Callable[[Any], Grid | str]
     ranges: Callable[[Any], NDArray[np.float64]]
+    directions: Callable[[Any], NDArray[np.float64]] | None = None

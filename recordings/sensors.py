@@ -59,7 +59,7 @@ def recorded_sensors(
     """Find the sensors of a recording.
 
     Intrinsics are those of the chosen rig, else of the CameraInfo with the image's frame or beside
-    it in the tree of topics, else a field of view of 45 degrees.
+    it in the tree of topics, else of the messages, else a field of view of 45 degrees.
 
     Args:
         topics: of the file.
@@ -83,8 +83,7 @@ def recorded_sensors(
         elif info:
             sensor = _by_camera_info(name, ring, topic, decoder.decode(info.channel, 0))
         else:
-            rows, columns = _grid(topic)
-            sensor = _by_model(name, ring, topic, SensorModel(rows=rows, columns=columns))
+            sensor = _by_message(name, ring, topic, decoder)
         found.append((topic, sensor, in_rig))
     return found
 
@@ -189,6 +188,16 @@ def _by_model(name: str, ring: str, topic: Topic, model: SensorModel) -> Recorde
     return RecordedSensor(
         name, ring, topic.frame, model.directions, model.arrange, limits, images=topic.grid
     )
+
+
+def _by_message(name: str, ring: str, topic: Topic, decoder: Decoder) -> RecordedSensor:
+    """A sensor with the rays that its first message knows, else with the default model."""
+    form = range_format(topic.channel.schema_name)
+    if form is None or form.directions is None:
+        rows, columns = _grid(topic)
+        return _by_model(name, ring, topic, SensorModel(rows=rows, columns=columns))
+    rays = form.directions(decoder.decode(topic.channel, 0))
+    return RecordedSensor(name, ring, topic.frame, rays, lambda values: values, (0.0, np.inf))
 
 
 def _by_camera_info(name: str, ring: str, topic: Topic, info: Any) -> RecordedSensor:  # noqa: ANN401

@@ -24,7 +24,7 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
     "Stationary": (".0f", _labelled(Label.STATIONARY)),
     "Unassigned": (".0f", _labelled(Label.UNASSIGNED)),
     "Clusters": (".0f", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
-    **{metric_label(name): (METRIC_INFO[name].form, _error(name)) for name in PLOTTED},
+    **{metric_label(name): (METRIC_INFO[name].spec, _error(name)) for name in PLOTTED},
 }
 """{quantity: format, function from a pair to its value}; NaN where undefined."""
 
@@ -61,7 +61,7 @@ def _written(value: object) -> str:
 def _cells(name: str, of_a: Pair | None, of_b: Pair | None) -> tuple[str, str, str]:
     form, value = _ROWS[name]
     a, b = (_NAN if pair is None else value(pair) for pair in (of_a, of_b))
-    signed_form = f"+{form}"
+    signed_form = f"+{form.removeprefix('+')}"
     return _number(a, form), _number(b, form), _number(b - a, signed_form)
 
 

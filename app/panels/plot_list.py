@@ -164,7 +164,7 @@ def _metric_plots() -> Iterator[PlotSpec]:
             yield PlotSpec(
                 title=info.title[:1].upper() + info.title[1:],
                 unit=page_unit(info.unit),
-                form=info.form,
+                form=info.spec,
                 lines=(Line("", name, _flow),),
                 needs_truth=True,
                 signed=info.kind == "signed",

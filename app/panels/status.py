@@ -83,7 +83,7 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
 def _metric(name: str, value: float | None) -> Fact:
     unit = page_unit(METRIC_INFO[name].unit)
     apart = unit if unit in ("", "°") else f" {unit}"
-    return Fact(metric_title(name), _number(value, METRIC_INFO[name].form, apart))
+    return Fact(metric_title(name), _number(value, METRIC_INFO[name].spec, apart))
 
 
 def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) -> str:

@@ -16,7 +16,7 @@ from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
 _COUNTS = tuple(key for key, info in METRIC_INFO.items() if info.kind == "count")
 _PAPERS = ("angle_deg", "velocity_error")
 _FOUND = ("coverage", "precision", "false_flow")
-_METRICS = {key: Column(key, info.heading, info.form) for key, info in METRIC_INFO.items()}
+_METRICS = {key: Column(key, info.heading, info.spec) for key, info in METRIC_INFO.items()}
 
 
 def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:

@@ -1,5 +1,6 @@
 """Tables in LaTeX: booktabs, in a float across both columns."""
 
+import re
 import unicodedata
 
 from app.study.table import UNDEFINED, Table, shown
@@ -90,7 +91,12 @@ def _group_lines(table: Table) -> list[str]:
 
 
 def _line(cells: list[str]) -> str:
-    return " & ".join(map(escaped, cells)) + r" \\"
+    return " & ".join(map(_cell, cells)) + r" \\"
+
+
+def _cell(text: str) -> str:
+    """Cell of a table; a minus outside of mathematics would be a hyphen."""
+    return r"$-$" + escaped(text[1:]) if re.match(r"-\d", text) else escaped(text)
 
 
 def escaped(text: str) -> str:

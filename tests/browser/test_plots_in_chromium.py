@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page
 
+from app.panels.plot_list import PLOTS
 from tests.browser.conftest import NO_DRAWING
 from tests.browser.tab import Tab
 
@@ -36,7 +37,7 @@ def test_the_whole_recording_is_plotted_and_a_change_of_parameters_plots_it_agai
     tab.open("robot_moving")
     filled(tab)
     shown = plots(tab.page)
-    assert len(shown) == 5
+    assert len(shown) == len(PLOTS)
     last = int(tab.row("Frame").locator("[role=slider]").get_attribute("aria-valuemax") or 0)
     assert all(len(data[0]) == last + 1 for data in shown)
     moving = max(shown, key=lambda data: np.nanmax(data[1]))[1]

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from estimator import all_methods
+
 Points = NDArray[np.float64]
 
 
@@ -71,3 +73,8 @@ def cluttered(seed: int) -> Scene:
 
 def quantised(points: Points) -> Points:
     return np.round(points * 2.0**20) / 2.0**20
+
+
+def methods_of_points() -> list[str]:
+    """Names of the methods that need no rays: what holds for every scene of points is theirs."""
+    return [method.name for method in all_methods() if not method.needs_rays]

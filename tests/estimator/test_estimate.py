@@ -11,13 +11,18 @@ from estimator import (
     Parameters,
     SceneFlow,
     estimate_scene_flow,
-    method_names,
 )
-from tests.estimator.scenes import Scene, cluttered, corner, moved_patches
+from tests.estimator.scenes import (
+    Scene,
+    cluttered,
+    corner,
+    methods_of_points,
+    moved_patches,
+)
 
 INTERVAL = 8 / 15
 SEEDS = st.integers(0, 2**32 - 1)
-methods = pytest.mark.parametrize("method", method_names())
+methods = pytest.mark.parametrize("method", methods_of_points())
 
 
 def flow_of(scene: Scene, interval: float = INTERVAL, **settings: object) -> SceneFlow:

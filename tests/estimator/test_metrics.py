@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from estimator import Label, Metrics, PooledErrors, SceneFlow, angles_deg
+from estimator import METRIC_INFO, Label, Metrics, PooledErrors, SceneFlow, angles_deg
 
 
 def flow(velocity: np.ndarray) -> SceneFlow:
@@ -16,7 +16,8 @@ def flow(velocity: np.ndarray) -> SceneFlow:
 
 
 NONE = [np.nan, np.nan, np.nan]
-MEANS = {name for name in Metrics.__dataclass_fields__ if name not in ("pairs", "points_with_flow")}
+MEANS = {name for name, info in METRIC_INFO.items() if info.kind != "count"}
+SHARES = {name for name, info in METRIC_INFO.items() if info.kind == "share"}
 
 
 def still(size: int) -> np.ndarray:
@@ -130,7 +131,7 @@ def same(a: Metrics, b: Metrics, but: tuple[str, ...] = ("pairs",)) -> bool:
 @given(pairs())
 def test_shares_are_shares_and_strict_is_stricter(pair):
     metrics = pooled(pair)
-    for name in MEANS - {"angle_deg", "velocity_error", "epe3d"}:
+    for name in SHARES:
         value = getattr(metrics, name)
         assert np.isnan(value) or 0 <= value <= 1
     if np.isfinite(metrics.epe3d):
@@ -165,7 +166,7 @@ def test_a_way_is_the_same_at_half_the_speed_for_twice_the_time(pair, factor: fl
     found, interval, velocity, truth = pair
     truth = np.where(np.linalg.norm(truth, axis=1, keepdims=True) < 0.2, 0 * truth, truth)
     slower = (flow(found.velocity / factor), interval * factor, velocity / factor, truth / factor)
-    but = ("velocity_error",)
+    but = {name for name, info in METRIC_INFO.items() if info.unit == "m/s"}
     assert same(pooled((found, interval, velocity, truth)), pooled(slower), but)
 
 

@@ -16,11 +16,10 @@ from estimator import (
     Window,
     estimate,
     estimate_scene_flow,
-    method_names,
     window_of_pair,
 )
 from estimator.stages import Stages
-from tests.estimator.scenes import cluttered
+from tests.estimator.scenes import cluttered, methods_of_points
 
 INTERVAL = 8 / 15
 
@@ -30,7 +29,7 @@ walks = st.lists(
         gamma=st.sampled_from([0.0, 0.3, 0.6, 0.7, 0.95, 1.0]),
         delta=st.sampled_from([0.0, 0.02, 0.04, 0.1, 1.0]),
         n_min=st.sampled_from([1, 20, 60, 200]),
-        method=st.sampled_from(method_names()),
+        method=st.sampled_from(methods_of_points()),
         min_cluster_size=st.sampled_from([5, 20, 21]),
         min_samples=st.sampled_from([None, 4]),
         allow_single_cluster=st.booleans(),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from recordings import Cloud, RecordingError
-from recordings.point_truth import _rows, fields_of
+from recordings.point_truth import _rows, truth_fields
 
 
 def message(rows: np.ndarray, **more: object) -> SimpleNamespace:
@@ -38,7 +38,7 @@ def test_fields_are_read_where_they_lie():
         },
     )
     rows["x"], rows["object"] = [1, 2, 3], [0, 1, 2]
-    table = fields_of(message(rows))
+    table = truth_fields(message(rows))
     assert table["x"].tolist() == [1.0, 2.0, 3.0]
     assert table["object"].tolist() == [0, 1, 2]
 
@@ -47,14 +47,14 @@ def test_fields_are_read_where_they_lie():
 def test_a_cloud_that_does_not_fit_together_is_refused(more: dict[str, object]):
     rows = np.zeros(3, dtype=[("x", "<f4"), ("object", "u1")])
     with pytest.raises(RecordingError, match="does not fit together"):
-        fields_of(message(rows, **more))
+        truth_fields(message(rows, **more))
 
 
 def test_a_field_named_twice_is_refused():
     cloud = message(np.zeros(3, dtype=[("x", "<f4"), ("y", "<f4")]))
     cloud.fields[1].name = "x"
     with pytest.raises(RecordingError, match="does not fit together"):
-        fields_of(cloud)
+        truth_fields(cloud)
 
 
 def cloud_of(points: np.ndarray, sensor: list[int], zone: list[int]) -> Cloud:

@@ -1,5 +1,6 @@
 """A further type of message with ranges: one reader, and nothing else."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 from recordings import open_recording, range_formats
 from recordings.range_format import RangeFormat
 from recordings.range_formats import range_format
-from tests.recordings.foreign import ForeignFile, at, header, transforms
+from tests.recordings.foreign import ForeignFile, at, camera_info, header, transforms
 
 PERIOD = 66_666_667
 
@@ -38,13 +39,17 @@ SCANS = RangeFormat(
 
 
 def write_scans(path: Path, *readings: list[float]) -> Path:
+    return scans(*readings).write(path)
+
+
+def scans(*readings: list[float]) -> ForeignFile:
     file = ForeignFile()
     for k, ranges in enumerate(readings):
         stamp = 10**9 + k * PERIOD
         file.add("/eye/scan", "sensor_msgs/msg/LaserScan", scan(stamp, ranges), stamp)
         pose = transforms(stamp, [("world", "eye", at())])
         file.add("/tf", "tf2_msgs/msg/TFMessage", pose, stamp)
-    return file.write(path)
+    return file
 
 
 @pytest.fixture
@@ -61,6 +66,22 @@ def test_a_format_is_all_that_a_type_of_ranges_needs(tmp_path: Path):
         assert recording.cloud(0).points[:, 2].tolist() == [1.0, 2.0]
         assert np.isnan(recording.cloud(0).ranges[0, 1]).all()
         assert recording.cloud(1, max_range=10.0).points[:, 2].tolist() == [1.5, 2.5, 3.5, 3.75]
+
+
+@pytest.mark.parametrize("informed", [False, True])
+def test_rays_of_a_message_count_where_nothing_else_gives_intrinsics(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, informed: bool
+):
+    rays = np.array([[[-0.5, -0.5, 1], [0.5, -0.5, 1]], [[-0.5, 0.5, 1], [0.5, 0.5, 1]]])
+    knowing = replace(SCANS, directions=lambda _: rays)
+    monkeypatch.setitem(range_formats._BY_TYPE, SCANS.type, knowing)
+    file = scans([2.0, 2.0, 2.0, 2.0])
+    if informed:
+        info = camera_info(10**9, "eye", size=2, focal=4.0)
+        file.add("/eye/camera_info", "sensor_msgs/msg/CameraInfo", info, 10**9)
+    with open_recording(file.write(tmp_path / "a.mcap")) as recording:
+        side = 0.25 if informed else 1.0  # half a zone of a focal length of 4, or the rays
+        assert np.abs(recording.cloud(0).points[:, :2]) == pytest.approx(np.full((4, 2), side))
 
 
 @pytest.mark.usefixtures("_with_scans")

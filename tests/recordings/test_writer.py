@@ -7,7 +7,7 @@ from mcap_ros2.decoder import DecoderFactory
 
 from recordings import Frame, PointTruth, Provenance, RecordingError, open_recording
 from recordings import ros_messages as ros
-from recordings.point_truth import fields_of
+from recordings.point_truth import truth_fields
 from recordings.writer import RecordingWriter
 from robot_assets import load_rig, load_robot
 from tests.recordings.foreign import at
@@ -124,7 +124,7 @@ def test_another_reader_finds_standard_messages(written: Path):
 def test_the_truth_of_points_counts_as_many_sensors_as_there_are(sensors: int):
     last, zeros = np.array([0, sensors - 1]), np.zeros((2, 3))
     truth = PointTruth(zeros, zeros, np.array([3, 40]), last, np.array([0, 4095]))
-    table = fields_of(ros.points(0, "base", truth, sensors))
+    table = truth_fields(ros.points(0, "base", truth, sensors))
     assert table["sensor"].tolist() == [0, sensors - 1]
     assert table["zone"].tolist() == [0, 4095]
     assert table["object"].tolist() == [3, 40]

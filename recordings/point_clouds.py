@@ -1,0 +1,48 @@
+"""Fields of point clouds: sensor_msgs/PointCloud2."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from recordings.errors import RecordingError
+
+# sensor_msgs/PointField: the number of a datatype, and NumPy's letter for it.
+_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+
+
+def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded message)
+    """Fields of a cloud, (height * width,) each, in the order of the points.
+
+    Raises:
+        RecordingError: the cloud has too few bytes for its size, or fields that do not fit.
+    """
+    names, step = [field.name for field in cloud.fields], cloud.point_step
+    row_step = max(cloud.row_step, cloud.width * step)
+    needed = (cloud.height - 1) * row_step + cloud.width * step if cloud.height else 0
+    data = bytes(cloud.data)
+    fits = all(
+        f.datatype in _KINDS and f.offset + np.dtype(_KINDS[f.datatype]).itemsize <= step
+        for f in cloud.fields
+    )
+    if len(data) < needed or not fits or len(set(names)) < len(names):
+        raise RecordingError(
+            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes for "
+            f"{cloud.width * cloud.height} points of {step}, and the fields {', '.join(names)}, "
+            "which does not fit together."
+        )
+    order = ">" if cloud.is_bigendian else "<"
+    layout = np.dtype(
+        {
+            "names": names,
+            "formats": [order + _KINDS[f.datatype] for f in cloud.fields],
+            "offsets": [f.offset for f in cloud.fields],
+            "itemsize": step,
+        }
+    )
+    rows = [
+        np.frombuffer(data, dtype=layout, count=cloud.width, offset=row * row_step)
+        for row in range(cloud.height)
+    ]
+    points = np.concatenate(rows) if rows else np.zeros(0, dtype=layout)
+    return {name: points[name] for name in names}
