@@ -1,4 +1,4 @@
-"""Ranges in images: sensor_msgs/Image with a zone per pixel."""
+"""Range format of depth images: sensor_msgs/Image with a zone per pixel."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ _ENCODINGS = ("16UC1", "mono16", "32FC1")
 
 
 def depth_grid(image: Any) -> Grid | str:  # noqa: ANN401 (a decoded message)
-    """Rows and columns of a depth image, or the reason why it is none."""
+    """Rows and columns of a depth image, or the reason why it is not one."""
     if not is_grid(image.height, image.width):
         return f"it is {shown((image.height, image.width))}, and a sensor has {SIZES}"
     if image.encoding not in _ENCODINGS:
@@ -33,7 +33,7 @@ def depth_ranges(image: Any) -> NDArray[np.float64]:  # noqa: ANN401
 
 
 def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
-    """The pixels (height, width) of an image as numbers of a kind.
+    """Pixels (height, width) of an image as numbers of type `kind`.
 
     Raises:
         RecordingError: the image has fewer bytes than its size says.

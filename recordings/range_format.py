@@ -1,4 +1,4 @@
-"""Description of a type of message that holds the ranges of a sensor."""
+"""Range format: reader of the ranges in one type of message."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,11 +16,11 @@ class RangeFormat:
 
     Attributes:
         type: of the messages, such as "sensor_msgs/Image".
-        grid: rows and columns of a message's ranges, or the reason why it holds none, such as
-            "its encoding 'rgb8' is no distance". The first message of a topic decides whether it
-            is a sensor's.
-        ranges: (rows, columns) metres along the optical axis, in the order of the message; what is
-            not finite, or not above 0, is no range. RecordingError where the message is broken.
+        grid: rows and columns of a message's ranges, or the reason why it has none, such as "its
+            encoding 'rgb8' is no distance". The first message of a topic decides whether the topic
+            is used.
+        ranges: (rows, columns) metres along the optical axis, in the order of the message; values
+            that are not finite or not above 0 are invalid. RecordingError for a broken message.
         directions: (rows, columns, 3) rays with z = 1 in the sensor's frame (REP 103, optical), NaN
             where a zone's is not known, for messages that know them; they count where neither a
             rig nor a CameraInfo gives intrinsics. None where messages know none.

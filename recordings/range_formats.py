@@ -1,4 +1,4 @@
-"""All types of messages that ranges are read from; a further one is added to the tuple."""
+"""Registry of range formats; a new one is added to the tuple."""
 
 from recordings.depth_images import DEPTH_IMAGE
 from recordings.range_format import RangeFormat

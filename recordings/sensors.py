@@ -129,17 +129,16 @@ def readings(
     sensor: RecordedSensor,
     form: RangeFormat = DEPTH_IMAGE,
 ) -> NDArray[np.float64]:
-    """The readings (rows, columns) in metres of a message with ranges, NaN where there is none.
+    """Readings (rows, columns) in metres of a message with ranges, NaN where invalid.
 
     Args:
-        message: of the format's type. The first of a topic decided on the format; a later one may
-            still be of another size.
+        message: of the format's type; its size may differ from that of the topic's first message.
         status: sensor_msgs/Image with ST's target status of the same reading, None without.
-        sensor: that it is from.
+        sensor: of the message.
         form: of the message.
 
     Raises:
-        RecordingError: a message is of another kind or size, or has fewer bytes than that says.
+        RecordingError: a message has another size or encoding, or too few bytes.
     """
     grid, found = sensor.images or sensor.grid, form.grid(message)
     if found != grid:
@@ -221,7 +220,7 @@ class DepthStream:
 
     Attributes:
         topic: of the depth images.
-        sensor: that they are from.
+        sensor: of the images.
         status: topic of the target status beside them, None without.
         status_index: index of the status message of each depth message, -1 where it has none.
         form: of the messages.

@@ -90,7 +90,7 @@ def parse_rig(content: bytes, where: str) -> Rig:
     """
     try:
         table = tomllib.loads(content.decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # also a number of too many digits
+    except (ValueError, RecursionError) as error:  # ValueError: also a number of too many digits
         raise RigError(f"{where} is not a TOML file: {error}.") from error
     try:
         return _rig(RigFile.model_validate(table))
@@ -142,7 +142,7 @@ def _single(table: SingleTable) -> Sensor:
 
 
 def _across(direction: list[float], axis: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The part of a direction at a right angle to the unit vector `axis`, as a unit vector."""
+    """Component of a direction perpendicular to the unit vector `axis`, as a unit vector."""
     vector = np.array(direction)
     return unit(vector - (vector @ axis) * axis)
 

@@ -1,4 +1,4 @@
-"""Content of a rig file as models that check it, read and written with the same keys."""
+"""Validated models of a rig file, for reading and writing."""
 
 from typing import Annotated, Literal, LiteralString, Self
 
@@ -20,15 +20,15 @@ from robot_assets.sensor_model import unit
 
 MOST_SENSORS = 1000
 LONGEST_RANGE = 100.0
-"""Metres; no sensor of this kind sees a tenth of it."""
+"""Metres, ten times the range of any such sensor."""
 _LARGEST = 1e6
-"""Nothing that a rig measures comes near this; squares of larger numbers overflow."""
+"""No measure of a rig is this large; squares of much larger numbers overflow."""
 EXPECTED, WHOLE = "expected", "whole"
 """Types of our own errors: of a key's value, and of a rig as a whole."""
 
 
 def _must_be(expected: str) -> GetPydanticSchema:
-    """One error for whatever is wrong with a value, which says all that is expected of it."""
+    """Replace all errors of a value by one that says what is expected."""
     return GetPydanticSchema(
         lambda source, handler: core_schema.custom_error_schema(
             handler(source), EXPECTED, custom_error_message=f"must be {expected}"
@@ -37,7 +37,7 @@ def _must_be(expected: str) -> GetPydanticSchema:
 
 
 def _wrong(kind: LiteralString, said: str) -> PydanticCustomError:
-    # The sentence as a value: names of a rig may hold the braces of a template.
+    # As a value, since names of a rig may contain the braces of a template.
     return PydanticCustomError(kind, "{said}", {"said": said})
 
 
@@ -72,13 +72,13 @@ _Direction = Annotated[_Vector, AfterValidator(_not_zero)]
 
 
 class FileTable(BaseModel):
-    """A table of a rig file: every key is known, and no value is taken for another type's."""
+    """Table of a rig file; unknown keys and values of another type are errors."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class SensorModelTable(FileTable):
-    """The table [sensor_model]; see `SensorModel` for the meaning of its keys."""
+    """Table [sensor_model]; keys as in `SensorModel`."""
 
     name: _Text
     rows: _Zones
@@ -109,7 +109,7 @@ class SensorModelTable(FileTable):
 
 
 class RingTable(FileTable):
-    """A table of [[rings]]: sensors around an axis, counter-clockwise from the first one's."""
+    """Table of [[rings]]: sensors around an axis, counter-clockwise from `first_direction`."""
 
     name: _Text
     link: _Text
@@ -128,12 +128,12 @@ class RingTable(FileTable):
 
     @property
     def sensor_names(self) -> list[str]:
-        """Of its sensors, in their order."""
+        """Names of its sensors, in order."""
         return [f"{self.name}/{i}" for i in range(self.count)]
 
 
 class SingleTable(FileTable):
-    """A table of [[sensors]]: one sensor."""
+    """Table of [[sensors]]: one sensor."""
 
     name: _Text
     ring: _Text | None = None
@@ -149,7 +149,7 @@ class SingleTable(FileTable):
 
 
 class RigFile(FileTable):
-    """A whole rig file."""
+    """Whole rig file."""
 
     name: _Text
     sensor_model: SensorModelTable

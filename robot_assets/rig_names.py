@@ -1,17 +1,17 @@
-"""Names of sensors, and what makes two of them the same."""
+"""Names of sensors, and conflicts between them."""
 
 from collections.abc import Iterable
 
 
 def plain_name(text: str) -> str:
-    """A name, topic or frame by which sensors are matched: small letters, digits, underscores."""
+    """Normalise a name, topic or frame for matching: lower case, digits, single underscores."""
     return "_".join("".join(c if c.isalnum() else " " for c in text.lower()).split())
 
 
 def name_conflict(names: Iterable[str]) -> str | None:
-    """Sentence on the first sensor whose name cannot be told from another's, None without one.
+    """Message about the first name that is empty or equal to another; None where all are distinct.
 
-    Sensors are told apart in topics and frames, where only letters and digits count.
+    Names appear in topics and frames, where only letters and digits are significant.
     """
     seen: dict[str, str] = {}
     for name in names:

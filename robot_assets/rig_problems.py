@@ -1,4 +1,4 @@
-"""What is wrong with a rig file, for the person who wrote it."""
+"""Messages about the errors in a rig file."""
 
 import reprlib
 from typing import Any, get_args
@@ -9,20 +9,20 @@ from pydantic_core import ErrorDetails
 from robot_assets.rig_file import EXPECTED, WHOLE, RigFile
 
 _MOST = 3
-"""Problems that are said; who mends them sees the others next."""
+"""Problems in one message; further ones show once these are fixed."""
 _LONGEST = 60
-"""Characters of a key; what is longer is cut."""
+"""Characters of a key, longer ones are cut."""
 
 
 def problems(error: ValidationError) -> str:
-    """Sentence that names each key with a problem, what was found and what is expected."""
+    """Message with each wrong key, the expected value and the one found."""
     found: list[ErrorDetails] = []
     with_unknown_keys: set[tuple[int | str, ...]] = set()
     for each in error.errors(include_url=False):
         table = each["loc"][:-1]
         if each["type"] != "extra_forbidden":
             found.append(each)
-        elif table not in with_unknown_keys:  # one of a table, with all the known ones, will do
+        elif table not in with_unknown_keys:  # one per table, its message lists all known keys
             with_unknown_keys.add(table)
             found.append(each)
     said = "; ".join(map(_said, found[:_MOST]))
@@ -49,7 +49,7 @@ def _said(error: ErrorDetails) -> str:
 def _shown(value: object) -> str:
     try:
         return reprlib.repr(value)
-    except ValueError:  # Python writes no number that is as long as a hexadecimal one may be
+    except ValueError:  # Python refuses to print very long integers, which TOML may hold in hex
         return "a number of thousands of digits"
 
 
@@ -60,14 +60,14 @@ def _name(where: tuple[int | str, ...]) -> str:
         if isinstance(part, int):
             name += f"[{part}]"
         else:
-            # Whoever made the file may have put anything into a key.
+            # A key may hold any characters.
             plain = part if part.isprintable() and len(part) <= _LONGEST else reprlib.repr(part)
             name += f".{plain}" if name else plain
     return name
 
 
 def _keys(where: tuple[int | str, ...]) -> list[str]:
-    """The keys that a table of a rig file may have."""
+    """Known keys of a table of a rig file."""
     table: type[BaseModel] = RigFile
     if where:
         annotation: Any = RigFile.model_fields[str(where[0])].annotation

@@ -1,4 +1,4 @@
-"""The text of a rig file that gives a rig again, however that was made."""
+"""Writing a rig as the text of a rig file."""
 
 import json
 import math
@@ -13,10 +13,10 @@ from robot_assets.sensor_model import SensorModel
 
 
 def rig_text(rig: Rig) -> str:
-    """A rig as TOML for `load_rig`, each sensor by itself; poses come back to within rounding.
+    """Rig as TOML for `load_rig`, rings as single sensors; poses are kept to within rounding.
 
     Raises:
-        RigError: it was made in code, and no file may hold it.
+        RigError: a value of a rig made in code is not valid in a file.
     """
     content = {
         "name": rig.name,
@@ -61,7 +61,7 @@ def _sensor(sensor: Sensor) -> dict[str, Any]:
 
 
 def _degrees(angle: float) -> float:
-    """An angle in rad as degrees, as a person wrote it where that is the same angle."""
+    """Angle in rad as degrees, rounded where that is the same angle."""
     exact = math.degrees(angle)
     short = round(exact, 9)
     return short if math.radians(short) == angle else exact
@@ -82,11 +82,11 @@ def _toml(table: dict[str, Any]) -> str:
 
 def _value(value: str | bool | float | list[float]) -> str:
     if isinstance(value, str):
-        # JSON escapes what TOML must have escaped, but for one sign.
+        # JSON escapes all that TOML requires, except DEL.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, list):
         return f"[{', '.join(map(_value, value))}]"
-    # Adding zero makes a zero of a negative zero.
+    # Adding zero turns -0.0 into 0.0.
     return repr(value + 0)

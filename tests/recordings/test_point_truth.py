@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from recordings import Cloud, RecordingError
+from recordings.point_clouds import fields_of
 from recordings.point_truth import _rows, truth_fields
 
 
@@ -18,6 +19,7 @@ def message(rows: np.ndarray, **more: object) -> SimpleNamespace:
         "height": 1,
         "is_bigendian": False,
         "point_step": rows.dtype.itemsize,
+        "row_step": rows.nbytes,
         "data": np.frombuffer(rows.tobytes(), np.uint8),
         "fields": [
             SimpleNamespace(name=n, offset=described[n][1], datatype=codes[described[n][0].str[1:]])
@@ -107,3 +109,12 @@ def test_rows_that_lie_nowhere_belong_to_no_point():
     table = table_of(np.array([[np.nan, 0, 0], [1.0, 0, 1]]))
     assert _rows(table, cloud_of(POINTS, [0, 0, 0], [0, 1, 2])).tolist() == [-1, 1, -1]
     assert _rows(table_of(np.full((2, 3), np.nan)), cloud_of(POINTS, [0] * 3, [0] * 3)).max() == -1
+
+
+def test_rows_of_an_organised_cloud_may_be_padded():
+    rows = np.zeros(4, dtype=[("x", "<f4")])
+    rows["x"] = [1, 2, 3, 4]
+    padded = rows[:2].tobytes() + b"\xff" * 5 + rows[2:].tobytes()
+    data = np.frombuffer(padded, np.uint8)
+    cloud = message(rows, width=2, height=2, row_step=13, data=data)
+    assert fields_of(cloud)["x"].tolist() == [1.0, 2.0, 3.0, 4.0]
