@@ -60,7 +60,7 @@ class Pair:
 
     @property
     def truly_moving(self) -> NDArray[np.bool_]:
-        """Mask (N,) of truly moving source points; all True without a truth per point."""
+        """Mask (N,) of truly moving source points; all True where that is known of none."""
         size = len(self.source.points) if self.source else 0
         if self.truth is None or self.truth.points is None:
             return np.ones(size, dtype=bool)
@@ -133,7 +133,7 @@ def prepare_pair(recording: Recording, k: int, parameters: Parameters) -> Prepar
 
 
 def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCloud) -> Pair:
-    """Load the pair (k-n, k) through `load`; arguments and errors as `prepare_pair`."""
+    """Load the pair (k-n, k) through `load`; otherwise as `prepare_pair`."""
     source_k = k - parameters.n
     target, link_poses = load(k), recording.link_poses(k)
     if source_k < 0:

@@ -167,7 +167,7 @@ def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
     scratch.mkdir()
     given.mkdir()
     # The first is finished soon, while the others still go on.
-    for name, frames in (("a", 10), ("b", 60), ("c", 60)):
+    for name, frames in (("a", 10), ("b", 200), ("c", 200)):
         write_room(given / f"{name}.mcap", frames, seed=ord(name))
     command = [
         *(sys.executable, "-c", "import sys; from app.command_line import main; sys.exit(main())"),
