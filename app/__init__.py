@@ -1,1 +1,1 @@
-"""What people use: the viser app and the command line."""
+"""The viser app and the command line."""

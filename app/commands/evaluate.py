@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
 
 @contextmanager
 def _shown(bar: Bar | None, finished: int, name: str) -> Iterator[None]:
-    """A bar below the table, while a recording is under way."""
+    """Progress bar below the table, while a recording is evaluated."""
     if bar is None:
         yield
         return
@@ -99,7 +99,7 @@ def _shown(bar: Bar | None, finished: int, name: str) -> Iterator[None]:
 
 
 def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
-    """A recording's row of the table, and sentences about what to know of it."""
+    """A recording's row of the table, and its warnings."""
     row: dict[str, Any] = {"path": str(path), "scenario": None, "speed": None, "trial": None}
     row |= dict.fromkeys(METRIC_INFO)
     try:
@@ -128,7 +128,7 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
 
 
 def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Means over the recordings of each scenario that has several."""
+    """Means over the recordings of each scenario with more than one."""
     known = sorted((r for r in rows if r["scenario"]), key=lambda r: r["scenario"])
     means: list[dict[str, Any]] = []
     for scenario, group in groupby(known, key=lambda r: r["scenario"]):
@@ -154,7 +154,7 @@ def _cells(row: dict[str, Any]) -> list[str]:
 
 
 class _Table:
-    """Lines whose columns stand below each other, printed as they come.
+    """Table of aligned columns, printed line by line.
 
     Args:
         names: of the recordings.
@@ -166,7 +166,7 @@ class _Table:
         self._widths = [max(20, longest + 1), *(max(6, *map(len, words)) for words in _TITLES)]
 
     def heading(self) -> list[str]:
-        """The titles, a word a line, so that the table stays narrow; all end on the last line."""
+        """Titles with one word a line, bottom-aligned, so that the table stays narrow."""
         height = max(map(len, _TITLES))
         columns = [[""] * (height - len(words)) + words for words in _TITLES]
         names = [""] * (height - 1) + ["recording"]

@@ -1,4 +1,4 @@
-"""`tofscope export`: pictures, and a page that plays offline, with no one at a browser."""
+"""`tofscope export`: pictures and offline pages without an open browser."""
 
 import argparse
 import re
@@ -182,7 +182,7 @@ def _settings(options: argparse.Namespace) -> "ViewSettings":
 
 
 def _check_flags(options: argparse.Namespace) -> None:
-    """Raise InputError for a flag that has no meaning beside what is made."""
+    """Raise InputError for a flag that does not apply to the kind of export."""
     if options.html and len(options.view) > 1:
         raise InputError(f"An offline page has one view, got {len(options.view)}: --view 3d.")
     made, others = (
@@ -204,7 +204,7 @@ def _check_frame(opened: "Opened", frame: int) -> None:
 
 
 def _check_place(path: Path, ending: str) -> None:
-    """Raise InputError where a file cannot be, before anything is computed for it."""
+    """Raise InputError where a file cannot be written, before anything is computed."""
     if path.suffix.lower() != ending and not path.is_dir():
         raise InputError(f"{path} will not be known for what it is; let its name end in {ending}.")
     check_place(path)

@@ -1,4 +1,4 @@
-"""`tofscope info`: what is in a recording, and what each topic is used as."""
+"""`tofscope info`: topics of a recording, and the use of each."""
 
 import argparse
 import json
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _summary(path: Path, opening: Opening) -> dict[str, Any]:
-    """What the file is as a recording, or why it cannot be opened as one."""
+    """Summary of the file as a recording, or the reason why it cannot be opened as one."""
     try:
         with opening.open(path) as recording:
             return _described(recording)
@@ -93,7 +93,7 @@ def _print_lines(lines: list[str]) -> None:
 
 
 def _lines(summary: dict[str, Any]) -> list[str]:
-    """What the file is as a recording."""
+    """Summary of the file as a recording."""
     if "problem" in summary:
         return [summary["problem"]]
     lines = [

@@ -1,4 +1,4 @@
-"""Files that a command writes where a person asked for them."""
+"""Writing of output files."""
 
 import os
 from pathlib import Path
@@ -7,7 +7,7 @@ from app.errors import InputError
 
 
 def check_place(path: Path) -> None:
-    """Find out whether a file can be written, before anything is computed for it.
+    """Check that a file can be written, before anything is computed for it.
 
     Raises:
         InputError: it cannot.

@@ -1,4 +1,4 @@
-"""`tofscope simulate`: recordings of the paper's scenarios and more, made up by ray casting."""
+"""`tofscope simulate`: recordings of the paper's scenarios and more, simulated by ray casting."""
 
 import argparse
 from collections.abc import Iterable, Sequence
@@ -153,7 +153,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _scenarios(names: Iterable[str]) -> list[Scenario]:
-    """The scenarios of some names and groups, once each, in the order in which they are named."""
+    """Scenarios by names and groups, each once, in the order given."""
     groups = {
         _ALL: PAPER_SCENARIOS,
         _MORE: [name for name in SCENARIOS if name not in PAPER_SCENARIOS],
@@ -169,7 +169,7 @@ def _speeds_of(scenario: Scenario, asked: list[float] | None, single: bool) -> S
 
 
 def _speeds() -> str:
-    """The speeds of the scenarios, for people."""
+    """Text of the scenarios' speeds."""
     by_speeds: dict[tuple[float, ...], list[str]] = {}
     for scenario in SCENARIOS.values():
         if not scenario.still:
@@ -181,13 +181,13 @@ def _speeds() -> str:
 
 
 def _shown(speed: float) -> str:
-    """A speed with two decimals, or with as many as it needs to be told apart."""
+    """A speed with two decimals, or with more where it has more."""
     two = f"{speed:.2f}"
     return two if float(two) == speed else f"{speed:g}"
 
 
 def _check_replaceable(path: Path) -> None:
-    """Measured data cannot be made again: refuse to write over whatever is not simulated."""
+    """Refuse to overwrite a file that is not a simulated recording, such as measured data."""
     if not path.exists():
         return
     try:

@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
 
 @contextmanager
 def _stopped_like_by_ctrl_c() -> Iterator[None]:
-    """SIGTERM is answered as Ctrl-C is: workers are stopped and scratch is cleared away."""
+    """Handle SIGTERM like Ctrl-C: stop workers and remove temporary files."""
 
     def stop(*_: object) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once: clearing away is under way
@@ -156,7 +156,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _once_each(store: Store, works: list[Work]) -> tuple[list[Work], list[str]]:
-    """The works without those whose recording is another's copy, and sentences on those."""
+    """Works with distinct recordings, and sentences on those that are copies."""
     first: dict[str, Work] = {}
     twice: list[str] = []
     for work in works:
@@ -171,7 +171,7 @@ def _once_each(store: Store, works: list[Work]) -> tuple[list[Work], list[str]]:
 def _execute(
     options: argparse.Namespace, store: Store, left: list[Work], total: int
 ) -> list[str] | None:
-    """Do what is left; sentences about what failed, or None where it was stopped."""
+    """Run the remaining works; return failures as sentences, None when interrupted."""
     failures: list[str] = []
     unkept: list[str] = []
     progress = Progress(left, total, 1 if options.dask else options.jobs)
@@ -252,7 +252,7 @@ def _plan(options: argparse.Namespace) -> Plan:
 
 
 def _checked_rig(path: Path | None) -> Path | None:
-    """An absolute path, since workers of a cluster run in folders of their own."""
+    """Absolute path of a valid rig; workers of a cluster run in other folders."""
     if path is not None:
         load_rig(path)  # RigError where it cannot be used
     return path and path.absolute()

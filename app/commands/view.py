@@ -42,7 +42,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve until somebody ends it."""
+    """Serve until a signal ends it."""
     # viser takes a second to import, which `tofscope --help` need not wait for.
     from app.analysis.estimates import Estimates, warm_up
     from app.analysis.library import Library

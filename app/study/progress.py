@@ -68,7 +68,7 @@ class Progress:
 
 
 def _effort(work: Work) -> float:
-    """How long a unit takes, in estimates of a method over a recording."""
+    """Expected effort of a unit, in estimates of one method over a recording."""
     if isinstance(work.source, Simulated):
         return len(work.wanted(work.source.scenario)) + _SIMULATING
     return len(work.wanted(None))

@@ -1,1 +1,1 @@
-"""What is printed for people at a terminal, and plainly elsewhere."""
+"""Output for people: tables and progress at a terminal, plain lines elsewhere."""

@@ -1,4 +1,4 @@
-"""A bar at a terminal that says how far a command is."""
+"""Progress bar at a terminal."""
 
 from typing import TYPE_CHECKING
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Bar:
-    """One line with a bar, a count, a name and a remark; gone when it is hidden.
+    """One-line progress bar with count, name and remark; it disappears when hidden.
 
     Args:
         console: a terminal.
@@ -40,7 +40,7 @@ class Bar:
         self._task = self._progress.add_task("", total=total, remark="")
 
     def show(self, finished: int, name: str, remark: str = "") -> None:
-        """Write the line over."""
+        """Redraw the line."""
         self._progress.update(
             self._task, completed=finished, description=printable(name), remark=remark
         )
@@ -49,5 +49,5 @@ class Bar:
         self._console.show_cursor(True)  # who ends the process must not be left without
 
     def hide(self) -> None:
-        """Clear the line away, so that something can be printed."""
+        """Clear the line, so that something can be printed."""
         self._progress.stop()

@@ -1,4 +1,4 @@
-"""Standard output as a terminal of people, where it is one."""
+"""Detection of a terminal on standard output."""
 
 import sys
 from typing import TYPE_CHECKING
@@ -8,11 +8,11 @@ if TYPE_CHECKING:
 
 
 def terminal() -> "Console | None":
-    """Standard output, None where it is no terminal, or one that cannot write a line over."""
+    """Console on standard output; None where that is no terminal, or cannot overwrite a line."""
     if not sys.stdout.isatty():
         return None
     from rich.console import Console
 
-    # Whatever the environment says of colours in pipes: here is a terminal.
+    # The environment may ask for colours in pipes, too; this is known to be a terminal.
     console = Console(force_terminal=True, force_jupyter=False, highlight=False, markup=False)
     return None if console.is_dumb_terminal else console

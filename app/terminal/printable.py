@@ -1,4 +1,4 @@
-"""Text that can do a terminal no harm, whatever names a file holds."""
+"""Text that is safe to print at a terminal."""
 
 
 def printable(text: str) -> str:

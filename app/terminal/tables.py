@@ -1,4 +1,4 @@
-"""Tables whose columns stand below each other: in bold at a terminal, plain elsewhere."""
+"""Tables of aligned columns: bold titles at a terminal, plain elsewhere."""
 
 import io
 from collections.abc import Iterable, Sequence
@@ -56,7 +56,7 @@ def table_of(columns: Iterable[Column], rows: Iterable[Iterable[str]]) -> "Table
 
 
 def show(table: "Table") -> None:
-    """Print a table; at a terminal that is too narrow for its columns as it is elsewhere."""
+    """Print a table; plainly where there is no terminal, or one too narrow for it."""
     console = terminal()
     needed = sum(column.min_width or 0 for column in table.columns)
     if console and needed + _GAP * (len(table.columns) - 1) <= console.width:

@@ -11,7 +11,7 @@ from robot_assets import Rig, Robot, load_rig, load_robot
 
 @dataclass(frozen=True)
 class Opening:
-    """How recordings are opened: the arguments of `open_recording` beside the path."""
+    """Settings for opening recordings: the arguments of `open_recording` beside the path."""
 
     fixed_frame: str | None = None
     truth_frame: str | None = None
