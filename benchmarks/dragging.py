@@ -90,7 +90,7 @@ def one_by_one(served: Served) -> str:
 
 
 def flood(served: Served) -> str:
-    """How long after 200 events in a second the last of them is drawn, and nothing later."""
+    """Time from the last of 200 events within a second until its value is drawn."""
     hand = _Hand(served, None)
     waited = []
     for last in (5, 9, 12):
@@ -109,7 +109,7 @@ def flood(served: Served) -> str:
 
 
 def together(served: Served, count: int) -> list[str]:
-    """What each of several clients sees while all drag n and move on, at frames of their own."""
+    """Picture rate and latency of each client while all drag n, each over frames of its own."""
     hands = [_Hand(served, _FIRST + _APART * number) for number in range(count)]
     for hand in hands:
         hand.start()
@@ -118,7 +118,7 @@ def together(served: Served, count: int) -> list[str]:
     while time.perf_counter() < start + _DRAGGED:
         onward, at = divmod(step, len(_VALUES))
         for number, hand in enumerate(hands):
-            if at == 0:  # nothing of the next frame is known to anybody
+            if at == 0:  # the next frame has no cached results
                 hand.client.change("Frame", _FIRST + _APART * number + onward)
             hand.move(_VALUES[at])
         step += 1

@@ -1,4 +1,4 @@
-"""What a server holds while frames are played and scrubbed, and while clients come and go.
+"""Memory of a server while frames are played and scrubbed, and while clients come and go.
 
 Run it from the project's folder: `.venv/bin/python -m benchmarks.memory`.
 """

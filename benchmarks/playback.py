@@ -1,4 +1,4 @@
-"""How many frames a second come over the wire while a recording is played.
+"""Frames per second received by a client while a recording is played.
 
 Run it from the project's folder: `.venv/bin/python -m benchmarks.playback`.
 """
@@ -20,7 +20,7 @@ _FRAMES = 10_000
 
 
 class _Frames:
-    """When which frame came, by its cloud and by its number."""
+    """Arrival times of clouds, and numbers of the frames that arrived."""
 
     def __init__(self) -> None:
         self.clouds: list[float] = []

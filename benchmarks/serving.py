@@ -1,4 +1,4 @@
-"""What benchmarks of the app share: a server in a process of its own, and a long recording."""
+"""Helpers of the app's benchmarks: a server in its own process, and a long recording."""
 
 import itertools
 import os
@@ -31,7 +31,7 @@ class Served:
         return self._status("VmRSS") / 1024
 
     def threads(self) -> int:
-        """How many threads the server has."""
+        """Number of the server's threads."""
         return int(self._status("Threads"))
 
     def seconds(self) -> float:
@@ -88,5 +88,5 @@ def wait_until(condition: Callable[[], Any], seconds: float = 60.0) -> None:
 
 
 def machine() -> str:
-    """How many processors there are, and how busy they are."""
+    """Number of processors and their load."""
     return f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}"

@@ -1,4 +1,4 @@
-"""What a slider costs where the stages of Algorithm 1 are remembered, against doing all again.
+"""Time per slider step with cached stages of Algorithm 1, against computing all of them again.
 
 Run it from the project's folder: `.venv/bin/python -m benchmarks.stages`.
 """

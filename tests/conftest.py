@@ -11,7 +11,7 @@ from app.analysis import method_files
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 
-# The same examples every time: a test that fails, fails for everybody and again.
+# The same examples every time, so that a failure can be reproduced on any machine.
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=40)
 settings.load_profile("repeatable")
 

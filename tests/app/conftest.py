@@ -1,4 +1,4 @@
-"""What the app's tests share."""
+"""Fixtures shared by the app's tests."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""What a session has drawn, as its client has it."""
+"""Scene nodes of a session, read back from its client."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A browser client without a browser: viser's own scene and GUI, and whatever was sent kept."""
+"""A browser client without a browser: viser's scene and GUI, and a record of all messages sent."""
 
 import asyncio
 import contextlib
@@ -69,7 +69,7 @@ class FakeClient:
         server._websock_server.queue_message = keep
 
     def _run(self, script: str) -> None:
-        """What a browser makes of those scripts that the app hears of again."""
+        """Carry out the scripts that store a value or set the legend, as a browser would."""
         if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
             self.local_storage.set_item(*kept.groups())
         if legend := re.search(r"legend.innerHTML = (.*);", script):
@@ -119,7 +119,7 @@ class FakeClient:
         return cast(Any, found[0])
 
     def change(self, label: str, value: Any) -> None:
-        """What a browser sends when a person changes a control, on viser's own way."""
+        """Change a control, through viser's handler of a browser's message."""
         self._send(self.control(label), value)
 
     def _send(self, control: Any, value: Any) -> None:
@@ -130,17 +130,17 @@ class FakeClient:
         ).result(timeout=10)
 
     def press(self, label: str) -> None:
-        """What a browser sends when a person presses a button."""
+        """Press a button."""
         self.change(label, True)
 
     def press_group(self, option: str) -> None:
-        """What a browser sends when a person presses a button of a group without a label."""
+        """Press a button of a group without a label."""
         groups = self.gui._gui_input_handle_from_uuid.values()
         (found,) = [g for g in groups if option in getattr(g, "options", ()) and not g.label]
         self._send(found, option)
 
     def trigger(self, label: str) -> None:
-        """What a browser sends when a person chooses a command or presses its key."""
+        """Choose a command, as its key does."""
         found = [c for c in self.gui._command_handle_from_uuid.values() if c.label == label]
         assert len(found) == 1, f"{len(found)} commands are called {label}"
         message = CommandTriggerMessage(found[0]._impl.uuid)
@@ -150,7 +150,7 @@ class FakeClient:
         ).result(timeout=10)
 
     def click(self, origin: tuple[float, ...], direction: tuple[float, ...]) -> None:
-        """What a browser sends when a person clicks into the scene, with the ray that is meant."""
+        """Click into the scene along a ray."""
         message = ScenePointerMessage(
             "click", cast(Any, origin), cast(Any, direction), ((0.5, 0.5),), None
         )

@@ -65,7 +65,7 @@ class WireClient:
         self._socket.send(msgspec.msgpack.encode(fields))
 
     def look_from(self, position: tuple[float, float, float]) -> None:
-        """What a browser sends when its camera is there; at first, that it is there at all."""
+        """Send the camera's position in metres; viser announces a client at the first one."""
         self.send(
             messages.ViewerCameraMessage(
                 wxyz=(1.0, 0.0, 0.0, 0.0),
@@ -81,13 +81,13 @@ class WireClient:
         )
 
     def change(self, label: str, value: Any) -> None:
-        """What a browser sends when a person moves a control."""
+        """Send a control's new value."""
         uuid = self._uuids[label]
         self._values[uuid] = value
         self.send(messages.GuiUpdateMessage(uuid, {"value": value}))
 
     def trigger(self, label: str) -> None:
-        """What a browser sends when a person chooses a command or presses its key."""
+        """Send the choice of a command, as its key does."""
         self.send(messages.CommandTriggerMessage(self._commands[label]))
 
     def has(self, label: str) -> bool:
@@ -95,7 +95,7 @@ class WireClient:
         return label in self._uuids
 
     def value(self, label: str) -> Any:
-        """What a control shows."""
+        """Value of a control."""
         return self._values[self._uuids[label]]
 
     def _receive(self) -> None:

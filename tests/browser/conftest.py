@@ -62,7 +62,7 @@ def recordings_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def estimates() -> Estimates:
-    """What one test has computed of the samples, another finds there."""
+    """Cache of estimates, shared by all tests."""
     warm_up()  # so that no test's page waits for it
     return Estimates()
 

@@ -13,7 +13,7 @@ _CAMERA = """() => {
 
 
 def pixel(tab: Tab, point: NDArray[np.float64]) -> tuple[float, float]:
-    """Where a point (3,) of the fixed frame is on the page, once the camera stands still."""
+    """Page position in pixels of a point (3,) in the fixed frame, once the camera stands still."""
     before = np.full((1, 2), np.nan)
 
     def still() -> bool:
@@ -27,7 +27,7 @@ def pixel(tab: Tab, point: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def pixels(tab: Tab, points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Where points (N, 3) of the fixed frame are on the page, (N, 2)."""
+    """Page positions (N, 2) in pixels of points (N, 3) in the fixed frame."""
     projection, view, (left, top, width, height) = tab.page.evaluate(_CAMERA)
     matrices = [np.reshape(values, (4, 4)).T for values in (projection, view)]
     fixed = tab.poses(["source"])[0]

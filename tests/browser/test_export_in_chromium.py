@@ -84,7 +84,7 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
     page.wait_for_timeout(500)
     assert clock.input_value() == "0.1", "it goes on although it was set to a time"
     context.close()
-    # Whatever is in the page itself has an address, too, but nothing is asked of anybody.
+    # Contents of the page itself have URLs, too; no request goes to a server.
     assert {url.partition(":")[0] for url in asked} <= {"file", "data", "blob"}
 
 

@@ -26,7 +26,7 @@ def colours(tab: Tab, node: str) -> list[list[int]]:
 
 
 def downwards(tab: Tab) -> float:
-    """How much the camera looks down: 1 straight down, 0 ahead; y is up in the page's own frame."""
+    """Downward tilt of the camera: 1 straight down, 0 level; y is up in the page's own frame."""
     return tab.page.evaluate(_CAMERA)["forward"][1]
 
 

@@ -1,4 +1,4 @@
-"""How a flow is put together from its clusters' results."""
+"""Scene flow assembled from the results of its clusters."""
 
 import numpy as np
 import pytest

@@ -70,7 +70,7 @@ def test_a_mean_displacement_of_just_delta_moves():
 
 
 def whole(source: np.ndarray, target: np.ndarray) -> tuple[Cluster, Window]:
-    """Two clouds as one cluster, whatever HDBSCAN would say."""
+    """Two clouds as one cluster, without HDBSCAN."""
     window = window_of_pair(source, target, INTERVAL)
     return Cluster(0, np.arange(len(source)), np.arange(len(target))), window
 

@@ -1,4 +1,4 @@
-"""What is remembered of a window changes how long an estimate takes, and nothing else."""
+"""Cached stages of a window make estimates faster and leave their results unchanged."""
 
 import dataclasses
 from typing import Any

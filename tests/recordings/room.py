@@ -25,7 +25,7 @@ NEAR, WALL = 1.2, 1.9
 
 @dataclass(frozen=True)
 class Room:
-    """What was written.
+    """Ground truth of a recording written by `write_room`.
 
     Attributes:
         path: the recording.

@@ -30,7 +30,7 @@ def depth(stamp: int, frame: str, millimetres: int = 1000) -> dict:
 
 
 def one_sensor(more: Callable[[ForeignFile, int], None], frames: int = 4) -> ForeignFile:
-    """A sensor that looks at a wall 1 m away, and whatever else `more` adds per frame."""
+    """A sensor that looks at a wall 1 m away, and the messages that `more` adds per frame."""
     file = ForeignFile()
     for k in range(frames):
         stamp = k * STEP

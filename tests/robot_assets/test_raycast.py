@@ -19,7 +19,7 @@ def cast(caster: RayCaster, origin: tuple[float, ...], direction: tuple[float, .
 
 
 def box_distance(origin: np.ndarray, direction: np.ndarray) -> float:
-    """Where a ray from outside enters the box (slabs), inf where it does not."""
+    """Distance at which a ray from outside enters the box (slab method), inf for a miss."""
     with np.errstate(divide="ignore", over="ignore"):
         bounds = np.stack([(-HALF - origin) / direction, (HALF - origin) / direction])
     enter, leave = bounds.min(axis=0).max(), bounds.max(axis=0).min()

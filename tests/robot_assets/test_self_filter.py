@@ -17,7 +17,7 @@ READY = {
 
 
 def shows(robot: Robot, depth: float, model: SensorModel = MODEL, **positions: float) -> np.ndarray:
-    """What a sensor at the origin sees of the robot when all its zones read `depth`: (8, 8)."""
+    """Zones (8, 8) of a sensor at the origin that show the robot if all read `depth` metres."""
     ranges = np.full((1, 8, 8), depth)
     poses = robot.link_poses(positions)
     return SelfFilter(robot).shows_robot(ranges, model.directions[None], SENSOR, poses)[0]

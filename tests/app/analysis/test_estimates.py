@@ -16,7 +16,7 @@ MOVING = 100  # points of the moving patch, the last of the cloud
 
 @pytest.fixture
 def counted(monkeypatch):
-    """How many times the estimator ran."""
+    """Arguments of every run of the estimator."""
     runs = []
     real = app.analysis.pair_estimator.estimate
 

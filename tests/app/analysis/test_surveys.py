@@ -48,7 +48,7 @@ def test_a_survey_is_filled_and_told(runs):
     until(lambda: listener.complete)
     assert (listener.told[-1][1].moving[8:] == 100).all()
     assert len(runs) == FRAMES - 8
-    until(lambda: surveys._thread is None)  # nothing runs where nobody asks
+    until(lambda: surveys._thread is None)  # no thread without requests
 
 
 def test_what_was_computed_is_not_computed_again(runs):

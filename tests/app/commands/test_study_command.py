@@ -154,7 +154,7 @@ def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixtu
 @pytest.mark.parametrize(
     "stop",
     [
-        # As a terminal does, to all of its processes; and as whoever ends one process does.
+        # Ctrl+C in a terminal signals the whole process group; `kill` ends one process.
         lambda process: os.killpg(process.pid, signal.SIGINT),
         lambda process: process.terminate(),
     ],

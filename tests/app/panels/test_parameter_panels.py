@@ -1,4 +1,4 @@
-"""What the controls of parameters and presets do in a session."""
+"""Controls of parameters and presets in a session."""
 
 import json
 import time
@@ -77,7 +77,7 @@ def test_a_preset_that_another_saved_is_listed_and_one_that_is_replaced_is_told(
     Presets(preset_folder()).save("theirs", Parameters(n=3))
 
     def listed():
-        client.change("Step", "+1")  # whatever makes the page be shown again
+        client.change("Step", "+1")  # any change redraws the page
         time.sleep(0.3)
         return "theirs" in client.control("Preset").options
 

@@ -1,4 +1,4 @@
-"""What playback's controls and commands do in a session."""
+"""Controls and commands of playback in a session."""
 
 import itertools
 import time

@@ -73,7 +73,7 @@ def server(tmp_path, recordings):
 
 
 def alive() -> Counter:
-    """How many objects of the app and of viser there are by type, but for what is remembered."""
+    """Count living objects of the app and of viser by type, without those in `REMEMBERED`."""
     gc.collect()
     kinds = [(str(type(thing).__module__), type(thing).__name__) for thing in gc.get_objects()]
     return Counter(

@@ -1,4 +1,4 @@
-"""What a session sends as files: pictures, parameters, offline pages."""
+"""Files that a session sends: pictures, parameters, offline pages."""
 
 import io
 import threading

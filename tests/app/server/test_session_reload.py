@@ -1,4 +1,4 @@
-"""What is found again: a page that is loaded anew, and links."""
+"""Sessions restored by reloading a page or opening a link."""
 
 import re
 

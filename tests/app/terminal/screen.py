@@ -1,4 +1,4 @@
-"""What a person sees at a terminal, from what a program wrote to it."""
+"""Terminal emulator: the screen that a program's output leaves."""
 
 import re
 
