@@ -27,22 +27,12 @@ class _Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     given = sys.argv[1:] if arguments is None else list(arguments)
-    register_method_files(given)
-    parser = _Parser(
-        prog="tofscope",
-        description="See and tune scene flow from miniature time-of-flight sensors.",
-    )
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (view, info, simulate, evaluate, study, export):
-        module.add_parser(commands)
-    for subcommand in commands.choices.values():
-        subcommand.add_argument(
-            "--log-level",
-            type=str.lower,
-            choices=_LOG_LEVELS,
-            default="warning",
-            help="least severe messages that are logged on standard error (default warning)",
-        )
+    try:
+        register_method_files(given)
+        parser = _parser()
+    except UserError as error:
+        print(f"tofscope: {printable(str(error))}", file=sys.stderr)
+        return 2
     options = parser.parse_args(given)
     _set_up_log(options.log_level)
     try:
@@ -65,6 +55,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
             file=sys.stderr,
         )
         return 1
+
+
+def _parser() -> _Parser:
+    """Parser of all subcommands; MethodError where flags of methods collide."""
+    parser = _Parser(
+        prog="tofscope",
+        description="See and tune scene flow from miniature time-of-flight sensors.",
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for module in (view, info, simulate, evaluate, study, export):
+        module.add_parser(commands)
+    for subcommand in commands.choices.values():
+        subcommand.add_argument(
+            "--log-level",
+            type=str.lower,
+            choices=_LOG_LEVELS,
+            default="warning",
+            help="least severe messages that are logged on standard error (default warning)",
+        )
+    return parser
 
 
 def _set_up_log(level: str) -> None:

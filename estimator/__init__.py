@@ -5,7 +5,7 @@ Arrays in, results out; no file, viewer or command line.
 
 from estimator import methods as _built_in  # noqa: F401 (registers the built-in methods)
 from estimator.cloud import Cloud, CloudError, PlainCloud
-from estimator.estimate import estimate, estimate_scene_flow
+from estimator.estimate import checked_flow, estimate, estimate_scene_flow
 from estimator.flow import (
     ClusterResult,
     IcpRound,
@@ -57,6 +57,7 @@ __all__ = [
     "all_methods",
     "angles_deg",
     "changed",
+    "checked_flow",
     "estimate",
     "estimate_scene_flow",
     "find_method",

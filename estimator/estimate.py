@@ -1,10 +1,11 @@
 """Scene flow of a pair of clouds or of a window of frames."""
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from estimator.cloud import CloudError, HasPoints
 from estimator.flow import SceneFlow
-from estimator.method import find_method
+from estimator.method import Method, MethodError, find_method
 from estimator.parameters import Parameters
 from estimator.window import Window, window_of_pair
 
@@ -42,6 +43,7 @@ def estimate(window: Window, parameters: Parameters) -> SceneFlow:
 
     Raises:
         CloudError: the method needs rays and the window holds plain points.
+        MethodError: the method gave no flow of the source points.
     """
     method = find_method(parameters.method)
     if method.needs_rays and len(window.source.ranges) == 0:
@@ -50,6 +52,24 @@ def estimate(window: Window, parameters: Parameters) -> SceneFlow:
             "and not plain points."
         )
     if method.tracker is not None:
-        return method.tracker(parameters).step(window)
+        return checked_flow(method, window, method.tracker(parameters).step(window))
     assert method.flow is not None  # checked by `register`
-    return method.flow(window, parameters)
+    return checked_flow(method, window, method.flow(window, parameters))
+
+
+def checked_flow(method: Method, window: Window, flow: object) -> SceneFlow:
+    """The flow that a method has returned.
+
+    Raises:
+        MethodError: it is no scene flow of the window's source points.
+    """
+    size = len(window.source.points)
+    if not isinstance(flow, SceneFlow):
+        raise MethodError(f"Method {method.name} must return a SceneFlow, got {type(flow)}.")
+    shapes = (np.shape(flow.label), np.shape(flow.velocity), np.shape(flow.cluster))
+    if shapes != ((size,), (size, 3), (size,)):
+        raise MethodError(
+            f"Method {method.name} must return label, velocity and cluster of {size} source "
+            f"points, got the shapes {', '.join(map(str, shapes))}."
+        )
+    return flow

@@ -1,11 +1,16 @@
 """Descriptions of methods, trackers, and the registry of methods by name."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, is_dataclass
 from typing import Protocol
 
 from estimator.flow import SceneFlow
-from estimator.parameter_info import CheckedParameters, ParameterInfo, infos_of
+from estimator.parameter_info import (
+    CheckedParameters,
+    ParameterError,
+    ParameterInfo,
+    infos_of,
+)
 from estimator.parameters import PARAMETER_INFO, Parameters, add_method_name
 from estimator.window import Window
 
@@ -14,7 +19,7 @@ SHARED = ("n", "max_range")
 
 
 class MethodError(Exception):
-    """Method that cannot be registered."""
+    """Method that cannot be registered, or that fails."""
 
 
 class Tracker(Protocol):
@@ -83,6 +88,8 @@ def register(method: Method) -> None:
     name = method.name
     if name in _METHODS and _METHODS[name] != method:
         raise MethodError(f"There is a method {name} already; give this one another name.")
+    if any(_flag(name) == _flag(other) for other in _METHODS if other != name):
+        raise MethodError(f"The flags of method {name} would be another's; give it another name.")
     if (method.flow is None) == (method.tracker is None):
         raise MethodError(f"Method {name} must have either a flow or a tracker.")
     if not name.replace("_", "").replace("-", "").isalnum() or name in PARAMETER_INFO:
@@ -92,8 +99,32 @@ def register(method: Method) -> None:
         )
     if unknown := [used for used in method.uses if used not in PARAMETER_INFO]:
         raise MethodError(f"Method {name} uses {unknown[0]}, which is no field of Parameters.")
+    if method.parameters is not None:
+        _check_own_parameters(method, method.parameters)
     _METHODS[name] = method
     add_method_name(name)
+
+
+def _flag(name: str) -> str:
+    return name.replace("_", "-").lower()
+
+
+def _check_own_parameters(method: Method, own: type[CheckedParameters]) -> None:
+    """Raise MethodError where a method's own parameters are not declared as they must be."""
+    where = f"The parameters {own.__name__} of method {method.name}"
+    if not (issubclass(own, CheckedParameters) and is_dataclass(own)):
+        raise MethodError(f"{where} must be a dataclass derived from CheckedParameters.")
+    if not own.__dataclass_params__.frozen:  # pyright: ignore[reportAttributeAccessIssue]
+        raise MethodError(f"{where} must be frozen: @dataclass(frozen=True).")
+    if any(m.parameters is own and m.name != method.name for m in _METHODS.values()):
+        raise MethodError(f"{where} are another method's; derive a class of its own.")
+    try:
+        infos = infos_of(own)
+        own()
+    except (TypeError, ParameterError) as error:
+        raise MethodError(f"{where} cannot be used: {error}") from error
+    if sliding := [name for name, info in infos.items() if info.slider and info.optional]:
+        raise MethodError(f"{where}: {sliding[0]} may be unset, and so has no slider.")
 
 
 def find_method(name: str) -> Method:

@@ -77,7 +77,7 @@ class MetricInfo:
 
     def text(self, value: float | None) -> str:
         """Format a value, – where it is undefined."""
-        return "–" if value is None or math.isnan(value) else format(value, self.form)
+        return "–" if value is None or math.isnan(value) else format(value, self.spec)
 
 
 def _metric(

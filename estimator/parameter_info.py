@@ -143,5 +143,7 @@ def _sentence(name: str, value: object, info: ParameterInfo, error: ValidationEr
         return f"{name} must be one of {', '.join(info.choices)}, got {value!r}."
     if error.errors()[0]["type"] in ("greater_than_equal", "less_than_equal", "finite_number"):
         unit = f" {info.unit}" if info.unit else ""
+        if math.isinf(info.low) and math.isinf(info.high):
+            return f"{name} must be a finite number, got {value!r}."
         return f"{name} must be between {info.low:g} and {info.high:g}{unit}, got {value!r}."
     return f"{name} must be {_KINDS[info.kind]}, got {value!r}."

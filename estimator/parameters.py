@@ -107,12 +107,15 @@ class Parameters(CheckedParameters):
     own: tuple[Any, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.method not in _METHODS:
+        if not isinstance(self.method, str) or self.method not in _METHODS:
             raise ParameterError(
                 f"method must be one of {', '.join(_METHODS)}, got {self.method!r}."
             )
         super().__post_init__()
-        by_class = {type(own): own for own in self.own if own != type(own)()}
+        own_parameters = tuple(self.own) if isinstance(self.own, list | tuple) else (self.own,)
+        if wrong := [own for own in own_parameters if not isinstance(own, CheckedParameters)]:
+            raise ParameterError(f"own must hold parameters of methods, got {wrong[0]!r}.")
+        by_class = {type(own): own for own in own_parameters if own != type(own)()}
         ordered = sorted(by_class, key=lambda kind: (kind.__module__, kind.__qualname__))
         object.__setattr__(self, "own", tuple(by_class[kind] for kind in ordered))
 

@@ -89,7 +89,7 @@ class Estimates:
 
     def _estimate(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         estimator = self._estimators.get(
-            (opened.key, parameters), lambda: PairEstimator(parameters)
+            (opened.number, parameters), lambda: PairEstimator(parameters)
         )
         return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
 

@@ -1,9 +1,10 @@
 """Recordings that the app lists, opened once and shared by sessions."""
 
+import itertools
 import threading
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from app.errors import InputError
@@ -31,11 +32,13 @@ class Opened:
         entry: its entry in the list.
         recording: safe to use from several threads.
         key: identity of the file's content, under which results stay cached after it is closed.
+        number: of this opening; another one where the same file is opened again.
     """
 
     entry: Entry
     recording: Recording
     key: tuple[str, int, int]
+    number: int = field(default_factory=itertools.count().__next__)
 
 
 class _Shared:

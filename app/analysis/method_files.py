@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.util
+import re
 import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -55,7 +56,7 @@ def located(text: str) -> tuple[Path, str]:
         InputError: there is no such file.
     """
     file, _, name = text.rpartition(":")
-    path = Path(file).absolute()
+    path = Path(file).resolve()
     if not path.is_file():
         raise InputError(f"There is no file {file} for the method {text}; check the spelling.")
     return path, name
@@ -92,4 +93,5 @@ def _of_function(path: Path, name: str, found: Any) -> Method:  # noqa: ANN401 (
             "(window, parameters) -> SceneFlow."
         )
     flow: Callable[..., Any] = found
-    return Method(f"{path.stem}-{name}", flow, title=f"{path.name}:{name}")
+    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", f"{path.stem}-{name}")
+    return Method(plain, flow, title=f"{path.name}:{name}")

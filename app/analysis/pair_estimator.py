@@ -1,15 +1,29 @@
 """Flow of any pair of a recording, by pure methods and by trackers."""
 
+import logging
 import threading
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
+from app.analysis.method_files import method_files
 from app.analysis.pairs import Pair, PreparedPair, prepare_pair
-from estimator import Parameters, SceneFlow, Tracker, estimate, find_method
-from recordings import Recording
+from app.errors import UserError
+from estimator import (
+    Method,
+    MethodError,
+    Parameters,
+    SceneFlow,
+    Tracker,
+    Window,
+    checked_flow,
+    estimate,
+    find_method,
+)
+from recordings import Recording, RecordingError
 
+_LOG = logging.getLogger(__name__)
 SEGMENT = 64
 """Frames of a segment. A tracker restarts for each segment, its warm-up before the first frame."""
 _KEPT_SEGMENTS = 4
@@ -42,6 +56,7 @@ class PairEstimator:
 
         Raises:
             RecordingError: the file is broken there.
+            MethodError: the method gave no flow, or is a user's own and failed.
         """
         prepared = prepare(k)
         if prepared.window is None:
@@ -49,9 +64,9 @@ class PairEstimator:
         if self._method.tracker is not None:
             flow, seconds = self._segment(k, self._method.tracker).at(k, prepare)
         else:
-            start = time.perf_counter()
-            flow = estimate(prepared.window, self._parameters)
-            seconds = time.perf_counter() - start
+            flow, seconds = _timed(
+                self._method, lambda window: estimate(window, self._parameters), prepared.window
+            )
         return replace(prepared.pair, flow=flow, milliseconds=1e3 * seconds)
 
     def _segment(self, k: int, tracker: Callable[[Parameters], Tracker]) -> "_Segment":
@@ -60,7 +75,7 @@ class PairEstimator:
         with self._lock:
             if index not in self._segments:
                 first = max(n, n + index * SEGMENT - self._method.warm_up)
-                self._segments[index] = _Segment(tracker(self._parameters), first)
+                self._segments[index] = _Segment(self._method, tracker(self._parameters), first)
             self._segments.move_to_end(index)
             while len(self._segments) > _KEPT_SEGMENTS:
                 self._segments.popitem(last=False)
@@ -71,6 +86,7 @@ class PairEstimator:
 class _Segment:
     """Results of a tracker over a segment, computed up to the last requested frame."""
 
+    method: Method
     tracker: Tracker
     next: int
     found: dict[int, tuple[SceneFlow, float] | Exception] = field(default_factory=dict)
@@ -84,19 +100,45 @@ class _Segment:
                 self.next += 1
             found = self.found[k]
         if isinstance(found, Exception):
-            raise found
+            raise found.with_traceback(None)  # or it grows each time
         return found
 
     def _step(self, k: int, prepare: Prepare) -> tuple[SceneFlow, float] | Exception:
-        # Errors are kept per frame: a broken frame does not end the segment.
+        # A frame that is broken in the file, or fails the method, does not end the segment. Another
+        # error of reading is raised before the step, which the next request makes again.
         try:
             window = prepare(k).window
-            assert window is not None
-            start = time.perf_counter()
-            flow = self.tracker.step(window)
-            return flow, time.perf_counter() - start
+        except RecordingError as error:
+            return error.with_traceback(None)
+        assert window is not None
+        try:
+            return _timed(self.method, self.tracker.step, window)
         except Exception as error:
-            return error
+            return error.with_traceback(None)
+
+
+def _timed(
+    method: Method, step: Callable[[Window], SceneFlow], window: Window
+) -> tuple[SceneFlow, float]:
+    """Flow of a window and the seconds that it took.
+
+    Raises:
+        MethodError: the method gave no flow of the window's source, or is a user's own and failed.
+    """
+    start = time.perf_counter()
+    try:
+        flow = step(window)
+    except UserError:
+        raise
+    except Exception as error:
+        if not method_files([method.name]):
+            raise
+        _LOG.debug("Method %s failed.", method.name, exc_info=True)
+        raise MethodError(
+            f"Method {method.name} failed ({type(error).__name__}: {error}); --log-level debug "
+            "shows where."
+        ) from error
+    return checked_flow(method, window, flow), time.perf_counter() - start
 
 
 def flows(recording: Recording, parameters: Parameters) -> Iterator[tuple[int, SceneFlow]]:

@@ -32,6 +32,7 @@ class _Request:
     wanted: bool = True
     notified: float = field(default=float("-inf"))
     survey: Survey | None = None
+    failed: bool = False
 
 
 class Surveys:
@@ -134,6 +135,7 @@ class Surveys:
         except UserError:
             return None  # reported when the frame is shown
         except Exception:
-            if request.wanted:
-                raise
+            if request.wanted and not request.failed:
+                request.failed = True  # logged once, and not for every frame
+                _LOG.exception("Frame %d of a survey failed.", k)
             return None

@@ -113,6 +113,7 @@ class ParametersPanel(Panel):
             if self._infos[name].slider:
                 # Typed or loaded values may exceed the slider's range.
                 control.max = max(control.max, values[name])
+                control.min = min(control.min, values[name])
         refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
         anew = status.parameters_revision != self._revision
         for name in self._controls if anew else self._refused - refused:

@@ -110,8 +110,9 @@ class Session:
             finally:
                 workbench.close()
         except Exception:
-            # Usually a client that disconnected while its page was being built.
-            _LOG.warning("A session could not begin.", exc_info=True)
+            # A client that disconnects takes its page with it, also while that is being built.
+            level = logging.WARNING if self._queue.closed else logging.ERROR
+            _LOG.log(level, "A session has ended unexpectedly.", exc_info=True)
 
     def _resume(self) -> tuple[str, SavedSession | None]:
         """Token of this session, and the session to resume from a link or a reload, if any."""

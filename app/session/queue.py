@@ -49,6 +49,12 @@ class CommandQueue:
             commands, self._pending = self._pending, []
             return commands
 
+    @property
+    def closed(self) -> bool:
+        """Whether the queue was closed."""
+        with self._changed:
+            return self._closed
+
     def close(self) -> None:
         """Close the queue, and end all waits."""
         with self._changed:

@@ -190,3 +190,74 @@ def test_results_cannot_be_written_to():
     for values in (found.label, found.velocity, found.cluster, *of_cluster, *of_round):
         with pytest.raises(ValueError, match="read-only"):
             values[0] = 0
+
+
+class NoDataclass:
+    pass
+
+
+@dataclass
+class NotFrozen(CheckedParameters):
+    speed: float = parameter(0.5, text="speed")
+
+
+@dataclass(frozen=True)
+class BadDefault(CheckedParameters):
+    speed: float = parameter(0.5, text="speed", high=0.1)
+
+
+@dataclass(frozen=True)
+class SlidingOptional(CheckedParameters):
+    most: int | None = parameter(None, text="most", low=1, slider=(1, 5, 1))
+
+
+@dataclass(frozen=True)
+class ZeroOptional(CheckedParameters):
+    most: int | None = parameter(None, text="most", low=0)
+
+
+@pytest.mark.parametrize(
+    ("declared", "said"),
+    [
+        (NoDataclass, "must be a dataclass derived from CheckedParameters"),
+        (NotFrozen, "must be frozen"),
+        (BadDefault, "speed must be between -inf and 0.1, got 0.5"),
+        (SlidingOptional, "most may be unset, and so has no slider"),
+        (ZeroOptional, "its range must begin above 0"),
+    ],
+)
+def test_own_parameters_that_would_fail_later_are_refused_at_once(declared, said):
+    with pytest.raises(MethodError, match=said):
+        register(Method("wrong", flow, parameters=declared))
+    assert method_names() == BEFORE
+
+
+def test_names_and_parameters_are_a_methods_own(own):
+    with pytest.raises(MethodError, match="flags of method Own"):
+        register(Method("Own", flow))
+    with pytest.raises(MethodError, match="are another method's"):
+        register(Method("second", flow, parameters=Own))
+
+
+@pytest.mark.parametrize(
+    ("returned", "said"),
+    [
+        (None, "must return a SceneFlow, got <class 'NoneType'>"),
+        (scene_flow_of_points(np.zeros((3, 3))), "of 4 source points, got the shapes"),
+    ],
+)
+def test_a_method_that_gives_no_flow_of_the_source_says_so(returned, said):
+    register(Method("wrong", lambda window, parameters: returned))
+    with pytest.raises(MethodError, match=said):
+        estimate_scene_flow(POINTS, POINTS, 1.0, Parameters(method="wrong"))
+
+
+@pytest.mark.parametrize("own_values", [(5,), "ab", (object(),)])
+def test_own_holds_parameters_of_methods_alone(own_values):
+    with pytest.raises(ParameterError, match="own must hold parameters of methods"):
+        Parameters(own=own_values)
+
+
+def test_a_method_that_is_no_text_is_refused():
+    with pytest.raises(ParameterError, match="method must be one of"):
+        Parameters(method=["paper"])  # type: ignore[arg-type]

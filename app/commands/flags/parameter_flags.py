@@ -10,6 +10,7 @@ from app.analysis.parameter_files import flag_of, load
 from app.errors import InputError
 from estimator import (
     PARAMETER_INFO,
+    MethodError,
     ParameterInfo,
     Parameters,
     all_methods,
@@ -82,7 +83,13 @@ def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[s
         own = {name: info for name, info in method.infos().items() if name not in PARAMETER_INFO}
         group = parser.add_argument_group(f"parameters of {method.name}") if own else group
         for name, info in own.items():
-            _add_flag(group, name, info)
+            try:
+                _add_flag(group, name, info)
+            except argparse.ArgumentError as error:
+                raise MethodError(
+                    f"Method {method.name} cannot have the flag {flag_of(name)}: it is another's "
+                    "already; rename the method or its parameter."
+                ) from error
 
 
 def parameters_from(options: argparse.Namespace) -> Parameters:

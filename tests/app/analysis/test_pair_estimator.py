@@ -138,3 +138,40 @@ def test_methods_asked_together_give_what_each_gives_alone(room):
         for case, found in zip(cases, together, strict=True):
             alone = evaluate_all(recording, [case])[0]
             assert repr(found.metrics) == repr(alone.metrics)  # nan equals nan
+
+
+def test_an_error_of_reading_that_passes_costs_a_tracker_nothing(tracked, recording):
+    expected = {k: told(flow) for k, flow in flows(recording, tracked)}
+    estimator, broken = PairEstimator(tracked), [True]
+
+    def prepare(k: int):
+        if k == 20 and broken[0]:
+            raise OSError("away")
+        return prepare_pair(recording, k, tracked)
+
+    with pytest.raises(OSError, match="away"):
+        estimator.pair(30, prepare)
+    broken[0] = False
+    flow = estimator.pair(30, prepare).flow
+    assert flow is not None
+    assert told(flow) == expected[30]
+
+
+def test_a_recording_that_is_opened_again_has_segments_of_its_own(tracked, recording):
+    expected = {k: told(flow) for k, flow in flows(recording, tracked)}
+    closing, estimates = fake_recording(frames=FRAMES), Estimates(clouds=1, pairs=1, flows=1)
+    clouds = closing.cloud
+
+    def cloud(k, far):
+        if k > 20:
+            raise RecordingError("seek of closed file")
+        return clouds(k, far)
+
+    closing.cloud = cloud
+    first, again = fake_opened(closing), fake_opened(recording)
+    assert first.key == again.key
+    with pytest.raises(RecordingError, match="closed file"):
+        estimates.estimated_in_background(first, 30, tracked)
+    flow = estimates.estimated(again, 30, tracked).flow
+    assert flow is not None
+    assert told(flow) == expected[30]

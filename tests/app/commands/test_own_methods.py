@@ -59,3 +59,34 @@ def test_a_study_compares_them_in_any_number_of_processes(
     assert tables["parameters"]["centroid"] == {"memory": 3}
     page = (tmp_path / "index.html").read_text()
     assert "centroid.memory = 3 steps" in page
+
+
+FAILING = """
+from dataclasses import dataclass
+from estimator import CheckedParameters, Method, parameter
+
+def boom(window, parameters):
+    raise ValueError("boom")
+
+@dataclass(frozen=True)
+class Colliding(CheckedParameters):
+    samples: int = parameter(1, text="samples")
+
+MIN = Method("min", boom, parameters=Colliding)
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("boom", "Method mine-boom failed (ValueError: boom)"),
+        ("MIN", "Method min cannot have the flag --min-samples"),
+    ],
+)
+def test_what_is_wrong_with_a_method_of_ones_own_is_a_sentence(
+    name: str, said: str, tmp_path: Path, methods_of_a_test, capsys: pytest.CaptureFixture[str]
+):
+    (tmp_path / "mine.py").write_text(FAILING)
+    command = ["evaluate", str(sample_paths()[0]), "--method", f"{tmp_path}/mine.py:{name}"]
+    assert main(command) != 0
+    assert said in capsys.readouterr().err
