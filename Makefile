@@ -16,7 +16,7 @@ test: setup
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/pyright
-	$(BIN)/pytest --numprocesses 2 --dist loadgroup
+	$(BIN)/pytest
 
 # Everything that run and test need; skipped while nothing has changed.
 setup: $(STAMP)

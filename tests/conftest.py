@@ -16,15 +16,6 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, max_exa
 settings.load_profile("repeatable")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests in one process, and all browsers; begin with those that take longest."""
-    first = ("browser", "commands", "study")
-    for item in items:
-        group = "browser" if "browser" in item.path.parts else str(item.path)
-        item.add_marker(pytest.mark.xdist_group(group))
-    items.sort(key=lambda item: not any(part in item.path.parts for part in first))
-
-
 @pytest.fixture(scope="session")
 def shared_data() -> Path:
     """Recordings that are no part of this repository; tests that need them skip without."""
