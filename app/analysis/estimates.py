@@ -8,7 +8,7 @@ from app.analysis.library import Opened
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, PreparedPair, make_pair, window_of
 from app.analysis.timeline import RecordedTimeline
-from estimator import Parameters, Stages, estimate_scene_flow
+from estimator import Parameters, Stages, estimate_scene_flow, find_method
 from recordings import Cloud
 
 
@@ -88,6 +88,9 @@ class Estimates:
         ]
 
     def _estimate(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
+        if find_method(parameters.method).tracker is None:
+            estimator = PairEstimator(parameters)  # without memory
+            return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
         estimator = self._estimators.get(
             (opened.number, parameters), lambda: PairEstimator(parameters)
         )

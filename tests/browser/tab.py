@@ -23,7 +23,7 @@ _POSES = """names => names.map(name => {
 })"""
 
 
-def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> None:
+def until(page: Page, condition: Callable[[], Any], timeout: float = 30.0) -> None:
     """Wait until something holds in a page."""
     end = time.monotonic() + timeout
     while not condition():
