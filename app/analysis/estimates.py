@@ -88,12 +88,10 @@ class Estimates:
         ]
 
     def _estimate(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
-        if find_method(parameters.method).tracker is None:
-            estimator = PairEstimator(parameters)  # without memory
-            return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
-        estimator = self._estimators.get(
-            (opened.number, parameters), lambda: PairEstimator(parameters)
-        )
+        estimator = PairEstimator(parameters)
+        if find_method(parameters.method).tracker is not None:
+            # A tracker's segments are kept, and belong to this opening of the file.
+            estimator = self._estimators.get((opened.number, parameters), lambda: estimator)
         return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
 
     def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> PreparedPair:
