@@ -6,6 +6,7 @@ import pytest
 from app.command_line import main
 from recordings import open_recording
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, SCENARIOS, Scenario
+from tests.robot_assets.coarse_rig import COARSE_RIG
 
 QUICK = ["--speed", "1", "--trial", "2", "--noise", "none"]
 
@@ -86,42 +87,11 @@ def test_imperfections_are_written_down(tmp_path: Path, capsys: pytest.CaptureFi
     assert "--noise none --imperfections bias ramps --out mine.mcap\n" in said
 
 
-RIG = """
-name = "two eyes"
-
-[sensor_model]
-name = "coarse"
-rows = 4
-columns = 4
-field_of_view_deg = 60.0
-min_range_m = 0.02
-max_range_m = 4.0
-distance = "perpendicular"
-reading_order = "row_major"
-flip_vertical = false
-flip_horizontal = false
-
-[[sensors]]
-name = "left"
-link = "panda_link0"
-position_m = [-0.2, 0.1, 0.45]
-forward = [0.2, 1.0, 0.0]
-up = [0.0, 0.0, 1.0]
-
-[[sensors]]
-name = "right"
-link = "panda_hand"
-position_m = [0.2, 0.1, 0.0]
-forward = [0.0, 0.0, 1.0]
-up = [0.0, 1.0, 0.0]
-"""
-
-
 def test_a_rig_of_ones_own_is_simulated_and_evaluated(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):
     rig = tmp_path / "mine.toml"
-    rig.write_text(RIG)
+    rig.write_text(COARSE_RIG)
     out = tmp_path / "out"
     assert main(["simulate", "towards", *QUICK, "--rig", str(rig), "--out", str(out)]) == 0
     assert made(out) == ["towards_1.00_2.mcap"]
@@ -153,7 +123,7 @@ def test_a_rig_that_cannot_be_used_is_one_sentence_and_nothing_is_made(
         (("panda_hand", "wheel"), "fixes sensor right to link wheel, which the robot panda has"),
         (("[[sensors]]", "[[sensor]]"), "sensor is not a known key"),
     ]:
-        rig.write_text(RIG.replace(*wrong))
+        rig.write_text(COARSE_RIG.replace(*wrong))
         assert main(["simulate", "towards", *QUICK, "--rig", str(rig), "--out", str(out)]) == 1
         errors = capsys.readouterr().err.strip().splitlines()
         assert len(errors) == 1
@@ -176,13 +146,15 @@ def test_all_combinations_once(tmp_path: Path, asked: Asked):
 def test_a_simulated_recording_is_replaced_and_nothing_else_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):
-    out = tmp_path / "towards_1.00_2.mcap"
-    assert main(["simulate", "towards", *QUICK, "--seed", "1", "--out", str(out)]) == 0
+    rig, out = tmp_path / "rig.toml", tmp_path / "towards_1.00_2.mcap"
+    rig.write_text(COARSE_RIG)  # two sensors: soon done
+    asked = ["simulate", "towards", *QUICK, "--rig", str(rig)]
+    assert main([*asked, "--seed", "1", "--out", str(out)]) == 0
     first = out.read_bytes()
-    assert main(["simulate", "towards", *QUICK, "--seed", "2", "--out", str(tmp_path)]) == 0
+    assert main([*asked, "--seed", "2", "--out", str(tmp_path)]) == 0
     assert out.read_bytes() != first
     out.write_bytes(b"measured for weeks")
-    assert main(["simulate", "towards", *QUICK, "--out", str(tmp_path)]) == 1
+    assert main([*asked, "--out", str(tmp_path)]) == 1
     assert out.read_bytes() == b"measured for weeks"
     assert f"{out} exists and is not a simulated recording" in capsys.readouterr().err
 

@@ -1,23 +1,16 @@
 import csv
 import json
-import os
 import re
 import shutil
-import signal
-import subprocess
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.command_line import main
-from tests.app.waiting import until
 from tests.recordings.foreign import ForeignFile, image
 from tests.recordings.room import write_room
 
-ROOT = Path(__file__).parents[3]
 TINY = ["--speed", "0.3", "--trial", "1", "--scenario", "towards", "--sweep", "8", "10"]
 EVERY = ["table_1", "metrics", "sweep", "recordings"]
 
@@ -47,53 +40,6 @@ def test_a_study_leaves_tables_figure_and_a_page_to_read_first(tiny: Path):
     assert "tofscope simulate towards --speed 0.3 --trial 1 --seed 0 --noise paper" in text
     for link in re.findall(r'href="([^"]+)"', text):
         assert (tiny / link).is_file()
-
-
-RIG = """
-name = "One wide sensor"
-
-[sensor_model]
-name = "VL53L5CX"
-rows = 4
-columns = 4
-field_of_view_deg = 60.0
-min_range_m = 0.02
-max_range_m = 4.0
-distance = "perpendicular"
-reading_order = "row_major"
-flip_vertical = false
-flip_horizontal = false
-
-[[sensors]]
-name = "base"
-link = "panda_link0"
-position_m = [0.1, 0.0, 0.2]
-forward = [0.0, 1.0, 0.0]
-up = [0.0, 0.0, 1.0]
-"""
-
-
-def test_a_study_simulates_with_a_rig_of_ones_own_and_says_so(tmp_path: Path):
-    rig = tmp_path / "wide.toml"
-    rig.write_text(RIG)
-    out = tmp_path / "out"
-    assert study(out, *TINY[:-3], "--sweep", "--rig", str(rig)) == 0
-    assert "with the rig wide.toml" in (out / "index.html").read_text("utf-8")
-    assert "rig wide.toml, noise model" in (out / "tables" / "metrics.md").read_text("utf-8")
-    assert f"--rig {rig}" in (out / "index.html").read_text("utf-8")
-    tables = json.loads((out / "tables" / "tables.json").read_text("utf-8"))
-    assert tables["rig"] == "wide.toml"
-    [kept] = (out / "results").glob("*.json")
-    rig.write_text(RIG.replace("60.0", "45.0"))
-    assert study(out, *TINY[:-3], "--sweep", "--rig", str(rig)) == 0
-    assert len(list((out / "results").glob("*.json"))) == 2, f"{kept} was taken for another rig's"
-
-
-def test_a_rig_that_cannot_be_used_ends_a_study_before_it_begins(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-):
-    assert study(tmp_path / "out", *TINY, "--rig", str(tmp_path / "none.toml")) == 1
-    assert "cannot be read as a rig file" in capsys.readouterr().err
 
 
 def test_tables_hold_what_evaluate_finds_on_the_same_recording(tiny: Path, tmp_path: Path):
@@ -132,16 +78,6 @@ def test_what_another_study_left_in_the_folder_is_no_part_of_this_one(tiny: Path
     assert {"index.html", "table_1.tex", "mine.csv"} <= left
 
 
-def test_the_second_command_on_the_page_is_whole(tmp_path: Path):
-    asked = [*TINY[:-3], "--method", "paper", "--gamma", "0.6", "--allow-single-cluster", "--sweep"]
-    assert study(tmp_path, *asked) == 0
-    text = (tmp_path / "index.html").read_text("utf-8")
-    assert (
-        "tofscope study --recordings recordings --method paper --sweep --gamma 0.6 "
-        "--allow-single-cluster --out FOLDER"
-    ) in text
-
-
 def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixture[str]):
     before = (tiny / "tables" / "tables.json").read_bytes()
     assert study(tiny, *TINY) == 0
@@ -149,82 +85,6 @@ def test_the_same_command_finds_all_done(tiny: Path, capsys: pytest.CaptureFixtu
     assert "1 of 1 recordings are known from before." in printed
     assert "left" not in printed.split("Table")[0]
     assert (tiny / "tables" / "tables.json").read_bytes() == before
-
-
-@pytest.mark.parametrize(
-    "stop",
-    [
-        # Ctrl+C in a terminal signals the whole process group; `kill` ends one process.
-        lambda process: os.killpg(process.pid, signal.SIGINT),
-        lambda process: process.terminate(),
-    ],
-    ids=["ctrl-c", "terminated"],
-)
-def test_what_is_stopped_keeps_what_is_finished_and_the_same_command_goes_on(
-    tmp_path: Path, stop: Callable[[subprocess.Popen[str]], None]
-):
-    scratch, given = tmp_path / "scratch", tmp_path / "given"
-    scratch.mkdir()
-    given.mkdir()
-    # The first is finished soon, while the others still go on.
-    for name, frames in (("a", 10), ("b", 200), ("c", 200)):
-        write_room(given / f"{name}.mcap", frames, seed=ord(name))
-    command = [
-        *(sys.executable, "-c", "import sys; from app.command_line import main; sys.exit(main())"),
-        *(
-            "study",
-            "--out",
-            str(tmp_path),
-            "--jobs",
-            "2",
-            "--recordings",
-            str(given),
-            "--sweep",
-            "--method",
-            "baseline",
-        ),
-    ]
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)}
-    process = subprocess.Popen(
-        command,
-        cwd=tmp_path,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    results = tmp_path / "results"
-    # Three processes start first, and load all that an estimate needs.
-    until(lambda: list(results.glob("*.json")), timeout=60)
-    assert list(scratch.glob("tofscope-study-*"))
-    stop(process)
-    # Workers end with the recordings that they are at.
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert not list(scratch.glob("tofscope-study-*"))
-    until(lambda: not _running(process.pid), timeout=60)
-    kept = {path: path.stat().st_mtime_ns for path in results.glob("*.json")}
-    assert 1 <= len(kept) < 3
-    assert said.count("\n") == 1
-    assert re.match(rf"Stopped: {len(kept)} of 3 recordings are finished and kept", said)
-
-    done = subprocess.run(
-        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
-    )
-    assert f"{len(kept)} of 3 recordings are known from before." in done.stdout
-    assert f"{len(kept) + 1}/3" in done.stdout
-    assert {path: path.stat().st_mtime_ns for path in kept} == kept
-    assert len(list(results.glob("*.json"))) == 3
-
-
-def _running(group: int) -> bool:
-    """Whether a process of a group is alive: with the first one gone, a worker."""
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from viser._messages import RunJavascriptMessage
+from viser._messages import RunJavascriptMessage, ThemeConfigurationMessage
 
 from app.scene.camera import Camera
 from app.scene.stage import FIXED
@@ -55,6 +55,8 @@ def test_a_reload_restores_camera_and_view_too(client, shared, runs):
     client.change("Robot", False)
     client.change("Dark", True)
     until(lambda: not client.node(f"{FIXED}/robot").visible)
+    themes = ThemeConfigurationMessage
+    until(lambda: any(m.dark_mode for m in client.sent if isinstance(m, themes)))
     client.camera.position, client.camera.look_at = np.array([5.0, 6.0, 7.0]), np.ones(3)
     session.close()
     session.join(10)

@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -71,8 +72,7 @@ def test_the_sensors_see_enough_of_the_mannequin(exact: list[Frame]):
 
 def test_the_same_seed_gives_the_same_frames_and_another_gives_others():
     towards = SCENARIOS["towards"]
-    first = list(frames(towards, noise="paper"))
-    again = list(frames(towards, noise="paper"))
+    first, again = (list(islice(frames(towards, noise="paper"), 8)) for _ in range(2))
     for a, b in zip(first, again, strict=True):
         assert np.array_equal(a.ranges, b.ranges, equal_nan=True)
         assert np.array_equal(a.truth.points, b.truth.points)
@@ -117,7 +117,7 @@ def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Pat
         assert source.imperfections == ("bias",)
 
 
-def test_the_reader_removes_the_robots_own_body(tmp_path: Path):
+def test_the_reader_removes_the_robots_own_body(exact: list[Frame], tmp_path: Path):
     path = tmp_path / "x.mcap"
     write_simulation(
         path,
@@ -125,16 +125,15 @@ def test_the_reader_removes_the_robots_own_body(tmp_path: Path):
         speed=0.6,
         trial=1,
         seed=0,
-        noise=NOISE_MODELS["paper"],
+        noise=NOISE_MODELS["none"],
         robot=ROBOT,
         rig=RIG,
     )
-    made = list(frames(BENT, noise="paper"))
     with open_recording(path) as recording:
         assert {s.name for s in recording.sensors} == {s.name for s in RIG.sensors}
         where = [[s.name for s in recording.sensors].index(s.name) for s in RIG.sensors]
         for k in range(0, len(recording), 6):
-            cloud, truth = recording.cloud(k), made[k].truth
+            cloud, truth = recording.cloud(k), exact[k].truth
             numbers = np.full(24 * 64, -1)
             numbers[np.array(where)[truth.sensor] * 64 + truth.zone] = truth.object
             seen = numbers[cloud.sensor * 64 + cloud.zone]
@@ -153,21 +152,6 @@ def test_samples_are_one_of_each_scenario_and_small():
             assert recording.provenance is not None
             scenarios.append(recording.provenance.scenario)
     assert sorted(scenarios) == sorted(PAPER_SCENARIOS)
-
-
-@pytest.mark.parametrize("scenario", PAPER_SCENARIOS)
-def test_samples_are_what_the_simulator_makes(scenario: str):
-    path = next(p for p in sample_paths() if p.stem.startswith(scenario + "_0"))
-    with open_recording(path) as recording:
-        source = recording.provenance
-        assert source is not None
-        made = list(frames(SCENARIOS[scenario], source.speed, source.trial, source.seed, "paper"))
-        assert len(made) == len(recording)
-        for k in (0, len(made) // 2, len(made) - 1):
-            difference = np.abs(recording.cloud(k).ranges - made[k].ranges)
-            assert np.nanmedian(difference) < 6e-4
-            # Rays that graze an edge may fall to either side on another processor.
-            assert np.nanmean(difference < 6e-4) > 0.99
 
 
 @pytest.mark.parametrize(("scenario", "coverage"), [("towards", 0.9), ("sideways", 0.8)])
@@ -191,19 +175,21 @@ def test_algorithm_1_finds_the_motion_in_the_samples(scenario: str, coverage: fl
     assert metrics.coverage > coverage
 
 
-def test_samples_are_the_files_that_the_simulator_writes(tmp_path: Path):
+@pytest.mark.parametrize("scenario", PAPER_SCENARIOS)
+def test_samples_are_the_files_that_the_simulator_writes(scenario: str, tmp_path: Path):
     """Bit for bit: nothing that can be switched on changes what is made without it."""
-    for path in sample_paths():
-        with open_recording(path) as recording:
-            source = recording.provenance
+    path = next(p for p in sample_paths() if p.stem.startswith(scenario + "_0"))
+    again = tmp_path / path.name
+    with open_recording(path) as shipped:
+        source = shipped.provenance
         assert source is not None
-        again = tmp_path / path.name
-        written(again, source.scenario, speed=source.speed, noise="paper")
-        with open_recording(path) as shipped, open_recording(again) as made:
-            assert made.provenance == shipped.provenance
-            same = [
-                np.array_equal(shipped.cloud(k).ranges, made.cloud(k).ranges, equal_nan=True)
-                for k in range(len(shipped))
-            ]
-            # On another processor a ray that grazes an edge may fall to its other side.
-            assert np.mean(same) > 0.5
+        written(again, scenario, speed=source.speed, noise="paper")
+        with open_recording(again) as made:
+            assert made.provenance == source
+            assert len(made) == len(shipped)
+            pairs = [(shipped.cloud(k).ranges, made.cloud(k).ranges) for k in range(len(shipped))]
+    # On another processor a ray that grazes an edge may fall to its other side.
+    assert np.mean([np.array_equal(a, b, equal_nan=True) for a, b in pairs]) > 0.5
+    differences = np.abs([a - b for a, b in pairs])
+    assert np.nanmedian(differences) < 6e-4
+    assert np.nanmean(differences < 6e-4) > 0.99

@@ -7,9 +7,21 @@ from recordings import open_recording
 from tests.recordings.simulation.made import written
 
 
-@pytest.mark.parametrize("imperfections", [(), ("ramps", "dropped_frames", "stamp_jitter")])
-def test_what_turns_is_followed_exactly_over_a_pair(tmp_path: Path, imperfections: tuple[str, ...]):
-    path = written(tmp_path / "x.mcap", "turning", imperfections=imperfections)
+@pytest.fixture(scope="module")
+def turning(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return written(tmp_path_factory.mktemp("turning") / "x.mcap", "turning")
+
+
+def test_what_turns_is_followed_exactly_over_a_pair(turning: Path):
+    check_turn(turning)
+
+
+def test_what_turns_is_followed_exactly_in_spite_of_imperfections(tmp_path: Path):
+    imperfections = ("ramps", "dropped_frames", "stamp_jitter")
+    check_turn(written(tmp_path / "x.mcap", "turning", imperfections=imperfections))
+
+
+def check_turn(path: Path) -> None:
     with open_recording(path) as recording:
         k = len(recording) // 2
         truth = recording.pair_truth(k - 8, k)
@@ -105,9 +117,8 @@ def test_where_nothing_moves_there_is_no_speed(tmp_path: Path):
         written(tmp_path / "x.mcap", "still", speed=0.2)
 
 
-def test_without_poses_a_turn_is_found_from_the_velocities(tmp_path: Path):
-    path = written(tmp_path / "x.mcap", "turning")
-    with open_recording(path) as recording:
+def test_without_poses_a_turn_is_found_from_the_velocities(turning: Path):
+    with open_recording(turning) as recording:
         own = recording._parts.point_truths
         assert own is not None
         k = len(recording) // 2

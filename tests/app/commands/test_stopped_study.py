@@ -1,0 +1,104 @@
+"""Studies that are stopped, and the same command given again."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.app.waiting import until
+from tests.conftest import REPOSITORY
+from tests.recordings.room import write_room
+
+PROGRAM = "import sys; from app.command_line import main; sys.exit(main())"
+
+
+class Study:
+    """A study of three recordings by two processes; the first recording is finished soon.
+
+    Args:
+        folder: for its results and temporary files.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.results, self.scratch = folder / "results", folder / "scratch"
+        given = folder / "given"
+        self.scratch.mkdir()
+        given.mkdir()
+        for name, frames in (("a", 9), ("b", 70), ("c", 70)):
+            write_room(given / f"{name}.mcap", frames, seed=ord(name))
+        asked = ["--recordings", str(given), "--sweep", "--method", "baseline", "--jobs", "2"]
+        self._command = [sys.executable, "-c", PROGRAM, "study", "--out", str(folder), *asked]
+        self._options: dict[str, Any] = {
+            "cwd": folder,
+            "env": os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(self.scratch)},
+            "text": True,
+        }
+
+    def start(self) -> subprocess.Popen[str]:
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+        # A session of its own: its process group has all of its processes and no other.
+        return subprocess.Popen(self._command, start_new_session=True, **pipes, **self._options)
+
+    def run(self) -> str:
+        """Run to the end, and return what is printed."""
+        ended = subprocess.run(self._command, capture_output=True, check=True, **self._options)
+        return ended.stdout
+
+    def kept(self) -> dict[Path, int]:
+        """When each of the results was written, in nanoseconds."""
+        return {path: path.stat().st_mtime_ns for path in self.results.glob("*.json")}
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Study:
+    return Study(tmp_path)
+
+
+def stop_after_the_first(
+    study: Study, stop: Callable[[subprocess.Popen[str]], None]
+) -> dict[Path, int]:
+    """Start a study, stop it once a result is kept, and return what is kept in the end."""
+    process = study.start()
+    until(study.kept)
+    assert list(study.scratch.glob("tofscope-study-*"))
+    stop(process)
+    _, said = process.communicate(timeout=10)
+    assert process.returncode == 130
+    assert not list(study.scratch.glob("tofscope-study-*"))
+    # Workers end with the recordings that they are at.
+    until(lambda: not _running(process.pid))
+    kept = study.kept()
+    assert 1 <= len(kept) < 3
+    assert said.count("\n") == 1
+    assert re.match(rf"Stopped: {len(kept)} of 3 recordings are finished and kept", said)
+    return kept
+
+
+def _running(group: int) -> bool:
+    """Whether a process of a group is alive: with the first one gone, a worker."""
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_study_that_is_terminated_keeps_what_is_finished(study: Study):
+    stop_after_the_first(study, lambda process: process.terminate())
+
+
+def test_after_ctrl_c_the_same_command_goes_on(study: Study):
+    # Ctrl+C in a terminal signals the whole process group; `kill` ends one process.
+    kept = stop_after_the_first(study, lambda process: os.killpg(process.pid, signal.SIGINT))
+    said = study.run()
+    assert f"{len(kept)} of 3 recordings are known from before." in said
+    assert f"{len(kept) + 1}/3" in said
+    after = study.kept()
+    assert {path: after[path] for path in kept} == kept
+    assert len(after) == 3
