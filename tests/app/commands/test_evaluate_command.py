@@ -10,7 +10,6 @@ from rich.cells import cell_len
 from app.command_line import main
 from estimator import METRIC_INFO
 from tests.app.terminal.screen import Screen
-from tests.conftest import REPOSITORY
 from tests.estimator.judge import judge
 from tests.recordings.foreign import ForeignFile, image
 from tests.recordings.room import Room, write_room

@@ -5,7 +5,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,25 +15,31 @@ from app.study.rows import Row, rows_of
 from app.study.work import EvaluationCase, Recorded, Simulated, Work, run_work
 from estimator import Parameters
 from tests.app.waiting import until
+from tests.recordings.room import write_room
 
 ROOT = Path(__file__).parents[3]
 ASKS = (EvaluationCase(Parameters()), EvaluationCase(Parameters(method="baseline")))
-WORKS = [Work(Simulated("towards", 0.3, trial), ASKS) for trial in (1, 2)]
+SIMULATED = Work(Simulated("towards", 0.3, 2), ASKS)
 
 
-def rows(jobs: int, dask: str | None = None) -> list[Row]:
-    done = sorted(outcomes(WORKS, jobs, dask), key=lambda outcome: outcome.trial or 0)
+@pytest.fixture(scope="module")
+def works(tmp_path_factory: pytest.TempPathFactory) -> list[Work]:
+    """One recording to simulate and one to open."""
+    room = write_room(tmp_path_factory.mktemp("room") / "room.mcap", frames=12)
+    return [SIMULATED, Work(Recorded(room.path), ASKS)]
+
+
+def rows(works: list[Work], jobs: int, dask: str | None = None) -> list[Row]:
+    done = sorted(outcomes(works, jobs, dask), key=lambda outcome: outcome.source.name)
     assert [outcome.failure for outcome in done] == [None, None]
     return rows_of(done)
 
 
 @pytest.fixture(scope="module")
-def one_core() -> list[Row]:
-    found = rows(1)
+def one_core(works: list[Work]) -> list[Row]:
+    found = rows(works, 1)
     assert len(found) == 4
     assert all(row.metrics["points_with_flow"] for row in found)
-    # With the baseline errors are large because what rests is moved, too.
-    assert [row.diagnosis is None for row in found] == [True, True, False, True]
     return found
 
 
@@ -68,25 +73,27 @@ def scheduler(tmp_path: Path) -> Iterator[str]:
         yield address
 
 
-def test_two_cores_give_what_one_gives(one_core: list[Row]):
-    assert rows(2) == one_core
+def test_two_cores_give_what_one_gives(works: list[Work], one_core: list[Row]):
+    assert rows(works, 2) == one_core
 
 
-def test_a_dask_cluster_gives_what_one_core_gives(one_core: list[Row], scheduler: str):
-    assert rows(1, scheduler) == one_core
+def test_a_dask_cluster_gives_what_one_core_gives(
+    works: list[Work], one_core: list[Row], scheduler: str
+):
+    assert rows(works, 1, scheduler) == one_core
 
 
 def test_a_scheduler_that_is_not_there_is_said(monkeypatch: pytest.MonkeyPatch):
     pytest.importorskip("distributed", reason="distributed is not installed")
     monkeypatch.setattr("app.study.execution._PATIENCE", 1)
     with pytest.raises(InputError, match=r"no Dask scheduler at tcp://127\.0\.0\.1:9"):
-        list(outcomes(WORKS, 1, "tcp://127.0.0.1:9"))
+        list(outcomes([SIMULATED], 1, "tcp://127.0.0.1:9"))
 
 
 def test_without_distributed_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"tofscope\[dask\]"):
-        list(outcomes(WORKS, 1, "tcp://127.0.0.1:9"))
+        list(outcomes([SIMULATED], 1, "tcp://127.0.0.1:9"))
 
 
 def test_a_broken_recording_costs_only_itself(tmp_path: Path):
@@ -99,18 +106,20 @@ def test_a_broken_recording_costs_only_itself(tmp_path: Path):
 
 
 def test_a_worker_of_another_version_is_refused():
-    outcome = run_work(WORKS[0], "another")
+    outcome = run_work(SIMULATED, "another")
     assert "another version" in str(outcome.failure)
     assert not outcome.results
 
 
-def test_an_unforeseen_error_is_a_failure_of_that_recording(monkeypatch: pytest.MonkeyPatch):
+def test_an_unforeseen_error_is_a_failure_of_that_recording(
+    works: list[Work], monkeypatch: pytest.MonkeyPatch
+):
     def explode(*_: object, **__: object) -> None:
         raise ZeroDivisionError("oh")
 
     monkeypatch.setattr("app.study.work.evaluate_all", explode)
-    (outcome,) = outcomes([replace(WORKS[0], cases=ASKS[:1])], 1)
-    assert outcome.failure == "towards_0.3_1: ZeroDivisionError: oh"
+    (outcome,) = outcomes(works[1:], 1)
+    assert outcome.failure == "room: ZeroDivisionError: oh"
 
 
 def test_the_sweep_is_only_for_the_scenario_that_is_swept():
