@@ -85,6 +85,41 @@ if (!window.tofscopeSends) {
 then sends the last of those made meanwhile, of whatever control: a click on a button and a number
 that is typed get lost between others, the more the busier the page is."""
 
+KEEP_TYPED = f"""
+if (!window.tofscopeKeeps) {{
+  window.tofscopeKeeps = true;
+  const viewer = window.__viserMutable, queue = viewer.messageQueue, held = new Map();
+  const typedInto = uuid => {{
+    const field = document.activeElement;
+    return field?.matches("{NUMBER_INPUT}")
+      && document.getElementById(uuid)?.parentElement.contains(field);
+  }};
+  queue.push = message => {{
+    if (message.type === "GuiUpdateMessage" && "value" in message.updates
+        && typedInto(message.uuid)) {{
+      const {{value, ...updates}} = message.updates;
+      held.set(message.uuid, value);
+      message = {{...message, updates}};
+    }}
+    return Array.prototype.push.call(queue, message);
+  }};
+  document.addEventListener("input", () => {{  // newer than what was held
+    for (const uuid of [...held.keys()]) if (typedInto(uuid)) held.delete(uuid);
+  }});
+  document.addEventListener("focusout", () => setTimeout(() => {{
+    for (const [uuid, value] of held) {{
+      if (typedInto(uuid)) continue;
+      held.delete(uuid);
+      queue.push({{type: "GuiUpdateMessage", uuid, updates: {{value}}}});
+      viewer.requestRender();
+    }}
+  }}));
+}}
+"""
+"""Script that holds values which arrive for a number field while it has the focus, until it loses
+it. viser shows them at once: they take the place of what is selected or half typed there, and the
+next keys go into another number than the one that was meant."""
+
 CONNECTION_LOGGER = "websockets.server"
 """Logger that reports connections closed before any request as errors; browsers open such
 connections."""

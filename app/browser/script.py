@@ -5,6 +5,7 @@ from uuid import uuid4
 import viser
 
 from app.browser.internals import (
+    KEEP_TYPED,
     SCENE_CANVAS,
     SEND_AT_ONCE,
     SLIDER_OR_TAB,
@@ -78,9 +79,10 @@ if (navigator.clipboard) navigator.clipboard.writeText(link).catch(show); else s
 """
 
 
-def set_up_sending(client: viser.ClientHandle) -> None:
-    """Let the page send every change of a control, however fast they follow each other."""
+def set_up_controls(client: viser.ClientHandle) -> None:
+    """Let the page send every change of a control, and leave alone what is being typed."""
     run_script(client, SEND_AT_ONCE)
+    run_script(client, KEEP_TYPED)
 
 
 def set_up_keys(client: viser.ClientHandle) -> None:

@@ -6,7 +6,7 @@ import viser
 
 from app.analysis.library import Opened
 from app.browser.fields import set_up_fields
-from app.browser.script import set_up_keys, set_up_scene_edge, set_up_sending
+from app.browser.script import set_up_keys, set_up_scene_edge, set_up_controls
 from app.panels.compare import ComparePanel
 from app.panels.delivery import Delivery
 from app.panels.explain import ExplainPanel
@@ -50,7 +50,7 @@ class Page:
     def __init__(self, context: PanelContext) -> None:
         self._client = context.client
         self._opened: Opened | None = None
-        set_up_sending(context.client)
+        set_up_controls(context.client)
         set_up_keys(context.client)
         set_up_fields(context.client)
         set_up_scene_edge(context.client)

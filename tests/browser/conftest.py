@@ -78,13 +78,21 @@ def server(
     server.close()
 
 
-@pytest.fixture
-def context(chromium: Browser) -> Iterator[BrowserContext]:
-    context = chromium.new_context(viewport={"width": 900, "height": 700}, accept_downloads=True)
+@pytest.fixture(scope="session")
+def window(chromium: Browser) -> BrowserContext:
+    """A window for all tests, since a new one costs half a second."""
+    context = chromium.new_context(accept_downloads=True)
     context.set_default_timeout(10_000)
     context.add_init_script(NO_DRAWING)
-    yield context
-    context.close()
+    return context
+
+
+@pytest.fixture
+def context(window: BrowserContext) -> Iterator[BrowserContext]:
+    """The window without tabs; what a tab stores ends with it."""
+    yield window
+    for page in window.pages:
+        page.close()
 
 
 @pytest.fixture

@@ -23,7 +23,7 @@ _POSES = """names => names.map(name => {
 })"""
 
 
-def until(page: Page, condition: Callable[[], Any], timeout: float = 30.0) -> None:
+def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> None:
     """Wait until something holds in a page."""
     end = time.monotonic() + timeout
     while not condition():
@@ -34,8 +34,11 @@ def until(page: Page, condition: Callable[[], Any], timeout: float = 30.0) -> No
 class Tab:
     """One browser tab that shows the app."""
 
-    def __init__(self, context: BrowserContext, address: str) -> None:
+    def __init__(
+        self, context: BrowserContext, address: str, width: int = 900, height: int = 700
+    ) -> None:
         self.page = context.new_page()
+        self.page.set_viewport_size({"width": width, "height": height})
         self.page.goto(address)
         self.page.wait_for_selector("canvas[data-engine]")
         self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)

@@ -42,8 +42,8 @@ def test_the_page_works_by_the_machines_address_and_foreign_pages_cannot_connect
         assert tab.page.evaluate(_CONNECT, f"ws://{exposed}") == "let in"
         assert tab.page.evaluate(_CONNECT, f"ws://127.0.0.1:{server.port}") == "refused"
 
-        context.route("http://evil.example/**", lambda route: route.fulfill(body="<p>evil</p>"))
         foreign = context.new_page()
+        foreign.route("http://evil.example/**", lambda route: route.fulfill(body="<p>evil</p>"))
         foreign.goto("http://evil.example/")
         assert foreign.evaluate(_CONNECT, f"ws://{exposed}") == "refused"
         assert foreign.evaluate(_CONNECT, f"ws://127.0.0.1:{server.port}") == "refused"

@@ -113,6 +113,25 @@ def test_a_frame_that_is_entered_while_another_is_on_its_way_is_shown(tab: Tab):
     tab.until(lambda: tab.value("Frame") == 12 and number.input_value() == "12")
 
 
+def test_what_is_being_typed_stays_when_a_value_arrives_which_is_shown_after_it(tab: Tab):
+    press(tab, "Home")
+    tab.until(lambda: tab.has_text("Frame 0 of") and tab.value("Frame") == 0)
+    uuid = tab.row("Frame").locator(".mantine-Slider-root").get_attribute("id")
+    number = tab.row("Frame").locator("input:not([type=hidden])")
+    number.click()
+    press(tab, "Control+a")
+    tab.page.evaluate(_LATE, [uuid, 30])  # while the text is selected
+    press(tab, "1")
+    tab.page.evaluate(_LATE, [uuid, 31])  # between two digits
+    press(tab, "2")
+    tab.until(lambda: tab.has_text("Frame 12 of"))
+    assert number.input_value() == "12"
+    tab.page.evaluate(_LATE, [uuid, 32])
+    assert number.input_value() == "12"
+    number.blur()
+    tab.until(lambda: number.input_value() == "32" and tab.value("Frame") == 32)
+
+
 _PLACES = """button => {
   window.places = new Set();
   const look = () => {

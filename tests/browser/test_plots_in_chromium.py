@@ -1,11 +1,9 @@
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page
+from playwright.sync_api import BrowserContext, Page
 
 from app.panels.plot_list import PLOTS
-from tests.browser.conftest import NO_DRAWING
+from app.server.server import Server
 from tests.browser.tab import Tab
 
 _DATA = """() => Object.values(window.__viserTestpoints.uplots)
@@ -15,13 +13,9 @@ _CURSOR = """() => parseFloat(getComputedStyle(document.querySelector('.u-over')
 
 
 @pytest.fixture
-def context(chromium: Browser) -> Iterator[BrowserContext]:
-    """A window that is wide enough for the plots to be open."""
-    context = chromium.new_context(viewport={"width": 1280, "height": 720}, accept_downloads=True)
-    context.set_default_timeout(10_000)
-    context.add_init_script(NO_DRAWING)
-    yield context
-    context.close()
+def tab(context: BrowserContext, server: Server) -> Tab:
+    """A page that is wide enough for the plots to be open."""
+    return Tab(context, server.address, 1280, 720)
 
 
 def plots(page: Page) -> list[np.ndarray]:

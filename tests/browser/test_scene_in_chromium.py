@@ -51,7 +51,7 @@ def test_points_are_as_large_in_a_near_view_as_in_a_far_one(tab: Tab):
 def test_colours_and_dark(tab: Tab):
     tab.page.get_by_text("Colours, sizes, layers").click()
     assert colours(tab, "target") == [list(palette(PAPER, dark=False).target)]
-    tab.row("Dark").locator("input").click(force=True)
+    tab.row("Dark").locator("input").click()
     tab.until(lambda: colours(tab, "target") == [list(palette(PAPER, dark=True).target)])
     tab.until(lambda: tab.page.locator("html[data-mantine-color-scheme=dark]").count() == 1)
     tab.row("Colours").locator("input").first.click()

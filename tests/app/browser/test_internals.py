@@ -139,6 +139,16 @@ def test_changes_of_controls_wait_where_they_are_kept_from_waiting():
     )
 
 
+def test_values_that_arrive_can_be_held_back():
+    names = ("messageQueue", "GuiUpdateMessage", "requestRender", internals.NUMBER_INPUT)
+    assert all(name in internals.KEEP_TYPED for name in names)
+    in_page(
+        r"messageQueue:\[\]",
+        r"(\w+)=\w+\.messageQueue,\w+=\w+\.drainMessageQueue\b.{,400}\1\.push\(\w+\)",
+        why="a value that arrives replaces what is being typed (KEEP_TYPED)",
+    )
+
+
 def test_the_title_of_the_page_can_be_replaced():
     assert page().count(internals.PAGE_TITLE) == 1, (
         f"viser's page has another title: offline pages keep it (PAGE_TITLE of {INTERNALS})"
