@@ -6,7 +6,7 @@ import viser
 
 from app.analysis.library import Opened
 from app.browser.fields import set_up_fields
-from app.browser.script import set_up_keys, set_up_scene_edge, set_up_controls
+from app.browser.script import set_up_controls, set_up_keys, set_up_scene_edge
 from app.panels.compare import ComparePanel
 from app.panels.delivery import Delivery
 from app.panels.explain import ExplainPanel
