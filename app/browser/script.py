@@ -30,7 +30,8 @@ if (!window.tofscopeKeys) {{
 }}
 """
 
-# Docked panels shift the scene; its resize events report that.
+# Docked panels shift the scene. Its resize events report that at once, but not always: a panel that
+# goes to the other side, or comes back after a lost connection, leaves the size as it was.
 _EDGE = f"""
 if (!window.tofscopeEdge) {{
   const canvas = document.querySelector("{SCENE_CANVAS}");
@@ -39,6 +40,7 @@ if (!window.tofscopeEdge) {{
   if (canvas) {{
     window.tofscopeEdge = new ResizeObserver(follow);
     window.tofscopeEdge.observe(canvas);
+    setInterval(follow, 300);
   }}
 }}
 """
@@ -46,6 +48,10 @@ if (!window.tofscopeEdge) {{
 _SIZE_TO_STORAGE = f"""
 const canvas = document.querySelector("{SCENE_CANVAS}");
 localStorage.setItem("{STORAGE_PREFIX}%s", `${{canvas.clientWidth}} ${{canvas.clientHeight}}`);
+"""
+
+_WIDTH_TO_STORAGE = f"""
+localStorage.setItem("{STORAGE_PREFIX}%s", window.innerWidth);
 """
 
 # viser does not report the page's address, but can read its storage. The link is removed from the
@@ -135,12 +141,29 @@ def canvas_size(client: viser.ClientHandle) -> tuple[int, int]:
 
     viser reports device pixels, whose number varies with the screen and with its frame rate.
     """
-    key = f"canvas-{uuid4()}"  # tabs share their storage
-    run_script(client, _SIZE_TO_STORAGE % key)
     try:
-        answer = client.local_storage.get_item(key, timeout=5.0)
-        client.local_storage.remove_item(key)
-        width, height = (int(side) for side in (answer or "").split())
+        width, height = (int(side) for side in _answer(client, _SIZE_TO_STORAGE).split())
     except (RuntimeError, TimeoutError, ValueError):
         width, height = client.camera.image_width, client.camera.image_height
     return max(width, 1), max(height, 1)
+
+
+def window_width(client: viser.ClientHandle) -> int:
+    """Width of the page in CSS pixels, panels included.
+
+    The scene's width is no measure of it: when a page connects again, panels of before still take
+    their part.
+    """
+    try:
+        return int(_answer(client, _WIDTH_TO_STORAGE))
+    except (RuntimeError, TimeoutError, ValueError):
+        return client.camera.image_width
+
+
+def _answer(client: viser.ClientHandle, script: str) -> str:
+    """Result of a script that stores it under the key put into it, empty without a storage."""
+    key = f"answer-{uuid4()}"  # tabs share their storage
+    run_script(client, script % key)
+    answer = client.local_storage.get_item(key, timeout=5.0)
+    client.local_storage.remove_item(key)
+    return answer or ""

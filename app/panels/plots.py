@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from app.analysis.library import Opened
 from app.analysis.survey import Survey
 from app.browser.plot_clicks import cursor, seek_by_clicks
+from app.browser.script import window_width
 from app.exports.file_names import safe
 from app.exports.survey_csv import to_csv
 from app.panels.panel import Panel, PanelContext
@@ -22,7 +23,7 @@ from app.session.workbench import Workbench
 from recordings import Recording
 
 _WIDTH = 300  # pixels
-_NARROW = 900  # width of a scene in pixels, up to which the plots start folded
+_NARROW = 1260  # width of a page in pixels, up to which the plots start folded
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class PlotsPanel(Panel):
         panel = gui.add_panel()
         panel.dock_left()
         panel.set_width(_WIDTH)
-        if context.client.camera.image_width <= _NARROW:
+        if window_width(context.client) <= _NARROW:
             panel.minimize()
         with panel.add_tab("Plots", viser.Icon.CHART_DOTS):
             self._summary = gui.add_html("")

@@ -187,6 +187,8 @@ class Session:
         except UserError as error:
             self._report(str(error))
         except Exception as error:
+            if self._queue.closed:
+                return False  # a client that disconnects takes its page with it
             sentence = f"Something unexpected went wrong ({type(error).__name__}: {error})."
             if self._report(sentence):
                 _LOG.exception("An unexpected error.")

@@ -67,34 +67,45 @@ def estimates() -> Estimates:
     return Estimates()
 
 
-@pytest.fixture
-def server(
-    recordings_folder: Path, estimates: Estimates, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Server]:
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+@pytest.fixture(scope="package")
+def server(recordings_folder: Path, estimates: Estimates) -> Iterator[Server]:
     library = Library([recordings_folder], open_recording)
     server = Server(Shared(library, estimates, Reloads(), Parameters()), "127.0.0.1", 0)
     yield server
     server.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(autouse=True)
+def _own_configuration(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Presets are those of the test."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+
+@pytest.fixture(scope="package")
 def window(chromium: Browser) -> BrowserContext:
-    """A window for all tests, since a new one costs half a second."""
     context = chromium.new_context(accept_downloads=True)
     context.set_default_timeout(10_000)
     context.add_init_script(NO_DRAWING)
     return context
 
 
+@pytest.fixture(scope="package")
+def first_tab(window: BrowserContext, server: Server) -> Tab:
+    return Tab(window, server.address)
+
+
+@pytest.fixture
+def tab(first_tab: Tab) -> Tab:
+    """A new session, in a page that is loaded once since that takes seconds."""
+    first_tab.begin_again()
+    return first_tab
+
+
 @pytest.fixture
 def context(window: BrowserContext) -> Iterator[BrowserContext]:
-    """The window without tabs; what a tab stores ends with it."""
+    """A window for further tabs, which are closed in the end."""
+    before = list(window.pages)
     yield window
     for page in window.pages:
-        page.close()
-
-
-@pytest.fixture
-def tab(context: BrowserContext, server: Server) -> Tab:
-    return Tab(context, server.address)
+        if page not in before:
+            page.close()

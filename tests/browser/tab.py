@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from playwright.sync_api import BrowserContext, Locator, Page
+from playwright.sync_api import BrowserContext, Locator, Page, ViewportSize
 
 from app.scene.stage import FIXED
 
@@ -23,6 +23,15 @@ _POSES = """names => names.map(name => {
 })"""
 
 
+_FORGET = """() => {
+  sessionStorage.clear();
+  document.activeElement.blur();
+  document.querySelectorAll("[role=alert] button").forEach(button => button.click());
+}"""
+_BEGUN = "sessionStorage.getItem('tofscope-session') !== null"
+SIZE: ViewportSize = {"width": 900, "height": 700}
+
+
 def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> None:
     """Wait until something holds in a page."""
     end = time.monotonic() + timeout
@@ -34,13 +43,22 @@ def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> No
 class Tab:
     """One browser tab that shows the app."""
 
-    def __init__(
-        self, context: BrowserContext, address: str, width: int = 900, height: int = 700
-    ) -> None:
+    def __init__(self, context: BrowserContext, address: str, size: ViewportSize = SIZE) -> None:
         self.page = context.new_page()
-        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.set_viewport_size(size)
         self.page.goto(address)
         self.page.wait_for_selector("canvas[data-engine]")
+        self._wait_for_the_first_frame()
+
+    def begin_again(self) -> None:
+        """Connect anew, as after a failure of the network, with nothing to come back to."""
+        self.page.mouse.move(0, 0)
+        self.page.evaluate(_FORGET)
+        self.page.workers[0].evaluate("self.onmessage({data: {type: 'retry'}})")
+        self.until(lambda: self.page.evaluate(_BEGUN))
+        self._wait_for_the_first_frame()
+
+    def _wait_for_the_first_frame(self) -> None:
         self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)
 
     def until(self, condition: Callable[[], Any]) -> None:

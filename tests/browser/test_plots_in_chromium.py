@@ -1,3 +1,5 @@
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, Page
@@ -12,10 +14,12 @@ _CURSOR = """() => parseFloat(getComputedStyle(document.querySelector('.u-over')
   / document.querySelector('.u-over').clientWidth"""
 
 
-@pytest.fixture
-def tab(context: BrowserContext, server: Server) -> Tab:
+@pytest.fixture(scope="module")
+def first_tab(window: BrowserContext, server: Server) -> Iterator[Tab]:
     """A page that is wide enough for the plots to be open."""
-    return Tab(context, server.address, 1280, 720)
+    tab = Tab(window, server.address, {"width": 1280, "height": 720})
+    yield tab
+    tab.page.close()
 
 
 def plots(page: Page) -> list[np.ndarray]:
