@@ -26,6 +26,7 @@ _FLAGS = [
     "--disable-component-update",
     "--disable-sync",
     "--use-angle=swiftshader",
+    "--disable-gpu-compositing",  # the page itself is drawn faster without SwiftShader
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
 ]
