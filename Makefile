@@ -16,7 +16,7 @@ test: setup
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/pyright
-	$(BIN)/pytest
+	$(BIN)/pytest -n 2 --dist loadgroup
 
 # Everything that run and test need; skipped while nothing has changed.
 setup: $(STAMP)

@@ -16,6 +16,24 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, max_exa
 settings.load_profile("repeatable")
 
 
+BROWSER = REPOSITORY / "tests" / "browser"
+"""Tests in a real Chromium: all in one process, with one page."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Keep a file's tests in one process, and begin with those that take longest."""
+    long = [BROWSER, *(REPOSITORY / "tests" / "app" / room for room in ("commands", "study"))]
+    for item in items:
+        group = BROWSER if item.path.is_relative_to(BROWSER) else item.path
+        item.add_marker(pytest.mark.xdist_group(str(group)))
+
+    def rank(item: pytest.Item) -> int:
+        ranks = [k for k, folder in enumerate(long) if item.path.is_relative_to(folder)]
+        return ranks[0] if ranks else len(long)
+
+    items.sort(key=rank)
+
+
 @pytest.fixture(scope="session")
 def shared_data() -> Path:
     """Recordings that are no part of this repository; tests that need them skip without."""

@@ -39,7 +39,7 @@ for (const context of [WebGLRenderingContext, WebGL2RenderingContext])
 """
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
     path = next(filter(None, map(shutil.which, _NAMES)), None)
     if path is None:

@@ -13,7 +13,7 @@ from recordings.writer import RecordingWriter
 from tests.app.terminal.screen import Screen
 from tests.recordings.foreign import ForeignFile, image, twist
 from tests.recordings.room import write_room
-from tests.recordings.simulation.made import RIG, ROBOT, frames, written
+from tests.recordings.simulation.made import COARSE, RIG, ROBOT, frames, written
 
 
 def test_info_says_what_each_topic_is_used_as(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
@@ -43,7 +43,8 @@ def test_info_is_readable_by_people(tmp_path: Path, capsys: pytest.CaptureFixtur
 def test_info_names_the_rig_of_a_recording_that_says_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):
-    path = written(tmp_path / "x.mcap", "fast", 2.0, rig=replace(RIG, name="eyes"))
+    rig = replace(COARSE, name="eyes")
+    path = written(tmp_path / "x.mcap", "fast", 2.0, rig=rig)
     assert main(["info", str(path)]) == 0
     lines = capsys.readouterr().out.splitlines()
     number = next(i for i, line in enumerate(lines) if line.startswith("noise         "))

@@ -6,27 +6,36 @@ from pathlib import Path
 import pytest
 
 from app.command_line import main
-from recordings import sample_paths
 from tests.conftest import REPOSITORY
+from tests.recordings.room import write_room
 
 FILE = REPOSITORY / "tests" / "own_methods.py"
 ALONG_RAYS, TRACKER = f"{FILE}:RANGE_RATE", f"{FILE}:CENTROID"
 
 
+@pytest.fixture(scope="module")
+def rooms(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Two recordings of a board that comes nearer."""
+    folder = tmp_path_factory.mktemp("rooms")
+    return [str(write_room(folder / f"{k}.mcap", frames=14, seed=k).path) for k in (1, 2)]
+
+
 @pytest.mark.parametrize("method", [ALONG_RAYS, TRACKER])
-def test_evaluate_runs_it(method: str, tmp_path: Path, methods_of_a_test):
+def test_evaluate_runs_it(method: str, rooms: list[str], tmp_path: Path, methods_of_a_test):
     out = tmp_path / "out.json"
-    assert main(["evaluate", str(sample_paths()[0]), "--method", method, "--json", str(out)]) == 0
+    assert main(["evaluate", rooms[0], "--method", method, "--json", str(out)]) == 0
     content = json.loads(out.read_text())
     assert content["recordings"][0]["points_with_flow"] > 1000
     assert content["parameters"]["method"] in content["parameters"]
 
 
-def test_its_parameters_are_flags_and_change_its_results(tmp_path: Path, methods_of_a_test):
+def test_its_parameters_are_flags_and_change_its_results(
+    rooms: list[str], tmp_path: Path, methods_of_a_test
+):
     found = []
     for flags in ([], ["--range-rate-slowest", "0.3", "--no-range-rate-robust"]):
         out = tmp_path / "out.json"
-        command = ["evaluate", str(sample_paths()[0]), "--method", ALONG_RAYS]
+        command = ["evaluate", rooms[0], "--method", ALONG_RAYS]
         assert main([*command, *flags, "--json", str(out)]) == 0
         content = json.loads(out.read_text())
         found.append(content["recordings"][0]["points_with_flow"])
@@ -34,22 +43,24 @@ def test_its_parameters_are_flags_and_change_its_results(tmp_path: Path, methods
     assert content["parameters"]["range-rate"] == {"slowest": 0.3, "robust": False}
     saved = tmp_path / "saved.json"
     saved.write_text(out.read_text())
-    again = ["evaluate", str(sample_paths()[0]), "--method", ALONG_RAYS, "--json", str(out)]
+    again = ["evaluate", rooms[0], "--method", ALONG_RAYS, "--json", str(out)]
     assert main([*again, "--parameters", str(saved)]) == 0
     assert json.loads(out.read_text())["recordings"] == content["recordings"]
 
 
-def test_a_value_out_of_range_names_the_flag(methods_of_a_test, capsys: pytest.CaptureFixture[str]):
-    command = ["evaluate", str(sample_paths()[0]), "--method", TRACKER]
+def test_a_value_out_of_range_names_the_flag(
+    rooms: list[str], methods_of_a_test, capsys: pytest.CaptureFixture[str]
+):
+    command = ["evaluate", rooms[0], "--method", TRACKER]
     assert main([*command, "--centroid-memory", "0"]) == 1
     assert "centroid.memory must be between 1 and 100 steps, got 0." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_a_study_compares_them_in_any_number_of_processes(
-    jobs: str, tmp_path: Path, methods_of_a_test
+    jobs: str, rooms: list[str], tmp_path: Path, methods_of_a_test
 ):
-    command = ["study", "--recordings", *map(str, sample_paths()[:2]), "--jobs", jobs, "--sweep"]
+    command = ["study", "--recordings", *rooms, "--jobs", jobs, "--sweep"]
     methods = ["--method", "baseline", ALONG_RAYS, TRACKER, "--centroid-memory", "3"]
     assert main([*command, *methods, "--out", str(tmp_path)]) == 0
     tables = json.loads((tmp_path / "tables" / "tables.json").read_text())
@@ -84,9 +95,14 @@ MIN = Method("min", boom, parameters=Colliding)
     ],
 )
 def test_what_is_wrong_with_a_method_of_ones_own_is_a_sentence(
-    name: str, said: str, tmp_path: Path, methods_of_a_test, capsys: pytest.CaptureFixture[str]
+    name: str,
+    said: str,
+    rooms: list[str],
+    tmp_path: Path,
+    methods_of_a_test,
+    capsys: pytest.CaptureFixture[str],
 ):
     (tmp_path / "mine.py").write_text(FAILING)
-    command = ["evaluate", str(sample_paths()[0]), "--method", f"{tmp_path}/mine.py:{name}"]
+    command = ["evaluate", rooms[0], "--method", f"{tmp_path}/mine.py:{name}"]
     assert main(command) != 0
     assert said in capsys.readouterr().err

@@ -19,19 +19,16 @@ PROGRAM = "import sys; from app.command_line import main; sys.exit(main())"
 
 
 class Study:
-    """A study of three recordings by two processes; the first recording is finished soon.
+    """A study by two processes.
 
     Args:
+        given: folder of the recordings.
         folder: for its results and temporary files.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, given: Path, folder: Path) -> None:
         self.results, self.scratch = folder / "results", folder / "scratch"
-        given = folder / "given"
         self.scratch.mkdir()
-        given.mkdir()
-        for name, frames in (("a", 9), ("b", 70), ("c", 70)):
-            write_room(given / f"{name}.mcap", frames, seed=ord(name))
         asked = ["--recordings", str(given), "--sweep", "--method", "baseline", "--jobs", "2"]
         self._command = [sys.executable, "-c", PROGRAM, "study", "--out", str(folder), *asked]
         self._options: dict[str, Any] = {
@@ -55,9 +52,18 @@ class Study:
         return {path: path.stat().st_mtime_ns for path in self.results.glob("*.json")}
 
 
+@pytest.fixture(scope="module")
+def given(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of three recordings, the first of which is finished soon."""
+    folder = tmp_path_factory.mktemp("given")
+    for name, frames in (("a", 9), ("b", 60), ("c", 60)):
+        write_room(folder / f"{name}.mcap", frames, seed=ord(name))
+    return folder
+
+
 @pytest.fixture
-def study(tmp_path: Path) -> Study:
-    return Study(tmp_path)
+def study(given: Path, tmp_path: Path) -> Study:
+    return Study(given, tmp_path)
 
 
 def stop_after_the_first(

@@ -24,14 +24,14 @@ SIMULATED = Work(Simulated("towards", 0.3, 2), ASKS)
 
 @pytest.fixture(scope="module")
 def works(tmp_path_factory: pytest.TempPathFactory) -> list[Work]:
-    """One recording to simulate and one to open."""
-    room = write_room(tmp_path_factory.mktemp("room") / "room.mcap", frames=12)
-    return [SIMULATED, Work(Recorded(room.path), ASKS)]
+    folder = tmp_path_factory.mktemp("rooms")
+    rooms = [write_room(folder / f"room_{seed}.mcap", frames=12, seed=seed) for seed in (1, 2)]
+    return [Work(Recorded(room.path), ASKS) for room in rooms]
 
 
 def rows(works: list[Work], jobs: int, dask: str | None = None) -> list[Row]:
     done = sorted(outcomes(works, jobs, dask), key=lambda outcome: outcome.source.name)
-    assert [outcome.failure for outcome in done] == [None, None]
+    assert not any(outcome.failure for outcome in done)
     return rows_of(done)
 
 
@@ -119,7 +119,7 @@ def test_an_unforeseen_error_is_a_failure_of_that_recording(
 
     monkeypatch.setattr("app.study.work.evaluate_all", explode)
     (outcome,) = outcomes(works[1:], 1)
-    assert outcome.failure == "room: ZeroDivisionError: oh"
+    assert outcome.failure == "room_2: ZeroDivisionError: oh"
 
 
 def test_the_sweep_is_only_for_the_scenario_that_is_swept():
@@ -129,8 +129,11 @@ def test_the_sweep_is_only_for_the_scenario_that_is_swept():
     assert work.wanted("towards") == (*ASKS, EvaluationCase(ten, resting=False))
 
 
-def test_where_an_alignment_is_wrong_fitness_and_displacement_are_said(one_core: list[Row]):
-    (why,) = (row.diagnosis for row in one_core if row.diagnosis)
+def test_where_an_alignment_is_wrong_fitness_and_displacement_are_said():
+    found = rows([SIMULATED], 1)
+    # With the baseline errors are large because what rests is moved, too.
+    assert [row.diagnosis is None for row in found] == [False, True]
+    why = str(found[0].diagnosis)
     assert re.fullmatch(
         r"In \d of \d pairs with a flow ICP aligns the moving cluster wrongly: fitness "
         r"0\.\d\d to 0\.\d\d, mean displacement (0\.\d\d) to 0\.\d\d m, where it went 0\.16 m\.",

@@ -5,12 +5,14 @@ import pytest
 
 from recordings import Frame, open_recording
 from recordings.simulation import SCENARIOS
-from tests.recordings.simulation.made import RIG, frames, written
+from tests.recordings.simulation.made import COARSE, RIG, frames, written
 
 
 def test_lost_frames_are_missing_and_the_others_are_the_same():
     def made(imperfections: tuple[str, ...]) -> dict[float, Frame]:
-        simulated = frames(SCENARIOS["towards"], 0.6, noise="measured", imperfections=imperfections)
+        simulated = frames(
+            SCENARIOS["towards"], 0.6, noise="measured", imperfections=imperfections, rig=COARSE
+        )
         return {frame.stamp: frame for frame in simulated}
 
     all_of_them, rest = made(()), made(("dropped_frames",))
@@ -21,9 +23,7 @@ def test_lost_frames_are_missing_and_the_others_are_the_same():
 
 
 def test_stamps_that_are_wrong_leave_the_readings_and_all_else_is_as_the_stamp_says():
-    simulated = list(
-        frames(SCENARIOS["towards"], 0.6, noise="none", imperfections=("stamp_jitter",))
-    )
+    simulated = list(frames(SCENARIOS["towards"], imperfections=("stamp_jitter",), rig=COARSE))
     stamps = np.array([frame.stamp for frame in simulated])
     off = stamps - (1.0 + np.arange(len(stamps)) / 15)
     assert 0.002 < off.std() < 0.006
@@ -31,7 +31,7 @@ def test_stamps_that_are_wrong_leave_the_readings_and_all_else_is_as_the_stamp_s
     moving = [frame for frame in simulated if frame.target_velocity.any()]
     gone = [frame.T_base_target[1, 3] - simulated[0].T_base_target[1, 3] for frame in moving]
     assert gone == pytest.approx([-0.6 * (frame.stamp - 1.7) for frame in moving])
-    right = list(frames(SCENARIOS["towards"], 0.6, noise="none"))
+    right = list(frames(SCENARIOS["towards"], rig=COARSE))
     assert len(right) == len(simulated)
     for frame, same in zip(simulated, right, strict=True):
         assert np.array_equal(frame.ranges, same.ranges, equal_nan=True)

@@ -14,7 +14,7 @@ from recordings.simulation import (
     write_simulation,
 )
 from recordings.simulation.body import OWN_ROBOT, SECOND_ROBOT, SURROUNDINGS, TARGET
-from tests.recordings.simulation.made import RIG, ROBOT, frames, written
+from tests.recordings.simulation.made import COARSE, RIG, ROBOT, frames, written
 
 # In this posture the robot sees itself, as it does not when it stands upright.
 BENT = replace(
@@ -98,7 +98,7 @@ def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Pat
             noise=NOISE_MODELS["paper"],
             imperfections=("bias",),
             robot=ROBOT,
-            rig=RIG,
+            rig=COARSE,
         )
         counts.append(written)
     assert paths[0].read_bytes() == paths[1].read_bytes()
@@ -112,7 +112,7 @@ def test_a_written_recording_says_what_it_is_and_is_the_same_again(tmp_path: Pat
         assert source.noise.startswith("paper: Gaussian")
         assert source.command == (
             "tofscope simulate sideways --speed 0.9 --trial 3 --seed 5 --noise paper "
-            "--imperfections bias --out x.mcap"
+            "--imperfections bias --rig rig.toml --out x.mcap"
         )
         assert source.imperfections == ("bias",)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from recordings import open_recording
-from tests.recordings.simulation.made import written
+from tests.recordings.simulation.made import COARSE, written
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +98,7 @@ def test_limbs_of_a_person_swing_and_the_target_is_the_torso(tmp_path: Path):
 
 @pytest.mark.parametrize("name", ["still", "still_robot_moving"])
 def test_where_nothing_moves_nothing_truly_moves(tmp_path: Path, name: str):
-    path = written(tmp_path / "x.mcap", name)
+    path = written(tmp_path / "x.mcap", name, rig=COARSE)
     with open_recording(path) as recording:
         assert recording.provenance is not None
         assert recording.provenance.speed == 0.0
