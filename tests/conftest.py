@@ -16,22 +16,12 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, max_exa
 settings.load_profile("repeatable")
 
 
-BROWSER = REPOSITORY / "tests" / "browser"
-"""Tests in a real Chromium: all in one process, with one page."""
+LONG = [REPOSITORY / "tests" / room for room in ("browser", "app/commands", "app/study")]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Keep a file's tests in one process, and begin with those that take longest."""
-    long = [BROWSER, *(REPOSITORY / "tests" / "app" / room for room in ("commands", "study"))]
-    for item in items:
-        group = BROWSER if item.path.is_relative_to(BROWSER) else item.path
-        item.add_marker(pytest.mark.xdist_group(str(group)))
-
-    def rank(item: pytest.Item) -> int:
-        ranks = [k for k, folder in enumerate(long) if item.path.is_relative_to(folder)]
-        return ranks[0] if ranks else len(long)
-
-    items.sort(key=rank)
+    """Begin with what takes longest, so that of several processes none is left with it alone."""
+    items.sort(key=lambda item: not any(item.path.is_relative_to(folder) for folder in LONG))
 
 
 @pytest.fixture(scope="session")
