@@ -15,8 +15,6 @@ from tests.app.waiting import until
 from tests.conftest import REPOSITORY
 from tests.recordings.room import write_room
 
-PROGRAM = "import sys; from app.command_line import main; sys.exit(main())"
-
 
 class Study:
     """A study by two processes, and by one when it is run again.
@@ -30,7 +28,7 @@ class Study:
         self.results, self.scratch = folder / "results", folder / "scratch"
         self.scratch.mkdir()
         asked = ["--recordings", str(given), "--sweep", "--method", "baseline"]
-        self._command = [sys.executable, "-c", PROGRAM, "study", "--out", str(folder), *asked]
+        self._command = [sys.executable, "-m", "app", "study", "--out", str(folder), *asked]
         self._options: dict[str, Any] = {
             "cwd": folder,
             "env": os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(self.scratch)},
