@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from xdist.remote import Producer
+from xdist.scheduler import LoadFileScheduling
 
 import estimator.method
 import estimator.parameters
@@ -16,12 +18,29 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, max_exa
 settings.load_profile("repeatable")
 
 
-LONG = [REPOSITORY / "tests" / room for room in ("browser", "app/commands", "app/study")]
+LONG = ("tests/browser/", "tests/app/commands/", "tests/app/study/")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with what takes longest, so that of several processes none is left with it alone."""
-    items.sort(key=lambda item: not any(item.path.is_relative_to(folder) for folder in LONG))
+
+    def order(item: pytest.Item) -> int:
+        return next((i for i, room in enumerate(LONG) if item.nodeid.startswith(room)), len(LONG))
+
+    items.sort(key=order)
+
+
+class FileScheduling(LoadFileScheduling):
+    """Division of the tests by files, with all browser tests in one process and one Chromium."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        browser = LONG[0]
+        return browser if nodeid.startswith(browser) else super()._split_scope(nodeid)
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> FileScheduling:
+    """Use `FileScheduling` for every run in several processes."""
+    return FileScheduling(config, log)
 
 
 @pytest.fixture(scope="session")

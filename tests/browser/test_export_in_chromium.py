@@ -12,6 +12,7 @@ from app.command_line import main
 from recordings import sample_paths
 from tests.browser.conftest import NO_DRAWING
 from tests.browser.tab import Tab, until
+from tests.recordings.room import write_room
 
 _NODES = """() => Object.entries(window.__viserSceneTree.getState())
   .filter(([name, node]) => node.message && node.effectiveVisibility !== false)
@@ -90,16 +91,15 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
     assert {url.partition(":")[0] for url in asked} <= {"file", "data", "blob"}
 
 
-def test_pictures_are_made_without_a_browser_open(sample: Path, tmp_path: Path, export: Export):
-    place = tmp_path / "a.png"
-    flags = ["--frame=20", "--size=400x240", "--n=6"]
-    said = export(sample, *flags, "--screenshot", place)
-    assert said == f"{place}: frame 20 of {sample.stem}, 400 x 240.\n"
+def test_pictures_are_made_without_a_browser_open(tmp_path: Path, export: Export):
+    room, place = write_room(tmp_path / "room.mcap").path, tmp_path / "a.png"
+    flags = ["--frame=11", "--size=400x240", "--n=6"]
+    said = export(room, *flags, "--screenshot", place)
+    assert said == f"{place}: frame 11 of room, 400 x 240.\n"
     with Image.open(place) as picture:
         assert (picture.format, picture.mode, picture.size) == ("PNG", "RGB", (400, 240))
-        assert picture.info["Recording"] == sample.stem
-        assert picture.info["Frame"].startswith("20 of ")
-        assert picture.info["Data"].startswith("simulated: sideways")
+        assert picture.info["Recording"] == "room"
+        assert picture.info["Frame"].startswith("11 of ")
         assert json.loads(picture.info["Parameters"])["n"] == 6
         pixels = np.asarray(picture).astype(int)
     white = (pixels == 255).all(axis=2)
@@ -110,7 +110,7 @@ def test_pictures_are_made_without_a_browser_open(sample: Path, tmp_path: Path, 
 
     # The same again, on nothing and with another view beside it.
     flags += ["--transparent", "--view", "3d", "top"]
-    said = export(sample, *flags, "--screenshot", place)
+    said = export(room, *flags, "--screenshot", place)
     assert said.endswith("800 x 240.\n")
     with Image.open(place) as picture:
         assert (picture.mode, picture.size) == ("RGBA", (800, 240))

@@ -73,7 +73,7 @@ def pair_of(seed: int) -> Window:
 
 
 @given(seed=st.integers(0, 999), walk=walks)
-@settings(max_examples=60)
+@settings(max_examples=30)
 def test_a_walk_over_parameters_finds_what_each_estimate_finds_alone(seed, walk):
     scene, window = cluttered(seed), pair_of(seed)
     for values in walk:
