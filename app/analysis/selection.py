@@ -75,9 +75,9 @@ def cluster_at(
     found: list[tuple[float, int]] = []
     direction = direction / np.linalg.norm(direction)
     for cluster in pair.flow.clusters if pair.flow else ():
-        way = points_of(pair, cluster) - origin
-        depth = way @ direction
-        aside = np.linalg.norm(way - depth[:, None] * direction, axis=1)
+        offset = points_of(pair, cluster) - origin
+        depth = offset @ direction
+        aside = np.linalg.norm(offset - depth[:, None] * direction, axis=1)
         found.append((float(np.arctan2(aside, depth).min()), cluster.index))
     angle, index = min(found, default=(np.inf, -1))
     return index if angle <= _TOLERANCE else None

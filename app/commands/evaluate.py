@@ -23,7 +23,7 @@ from app.commands.flags.recording_flags import (
     opening_from,
     recording_paths,
 )
-from app.commands.output_files import check_place, write
+from app.commands.output_files import check_output, write
 from app.errors import UserError
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
@@ -44,9 +44,9 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
             "angle and velocity error compare every point that has a flow with the moving "
             "object's velocity, as the paper does; what follows them needs the truth of every "
             "point. EPE3D, AccS, AccR and outliers are the field's, over a pair, and their "
-            "thresholds of 0.05 to 0.3 m were made for longer ways than these; false flow is the "
-            "share of points at rest that got a flow, over all pairs, also those at which nothing "
-            "moves. The exit code is 1 where nothing could be evaluated."
+            "thresholds of 0.05 to 0.3 m were made for longer displacements than these; false flow "
+            "is the share of points at rest that got a flow, over all pairs, also those at which "
+            "nothing moves. The exit code is 1 where nothing could be evaluated."
         ),
     )
     parser.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="recording or folder")
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> int:
     parameters = parameters_from(options)
     opening = opening_from(options)
     if options.json:
-        check_place(options.json)
+        check_output(options.json)
     rows: list[dict[str, Any]] = []
     paths = recording_paths(options.paths)
     table = _Table([path.stem for path in paths])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
-from app.commands.output_files import check_place, write
+from app.commands.output_files import check_output, write
 from app.errors import InputError
 from app.terminal.printable import printable
 from estimator import Parameters
@@ -91,9 +91,9 @@ def run(options: argparse.Namespace) -> int:
     parameters = parameters_from(options)
     _check_flags(options)
     if options.screenshot:
-        _check_place(options.screenshot, ".png")
+        _check_output(options.screenshot, ".png")
     else:
-        _check_place(options.html, ".html")
+        _check_output(options.html, ".html")
     if options.path.is_dir():
         raise InputError(f"{options.path} is a folder; name one of the recordings in it.")
     library = Library([options.path], opening_from(options).open)
@@ -203,11 +203,11 @@ def _check_frame(opened: "Opened", frame: int) -> None:
         )
 
 
-def _check_place(path: Path, ending: str) -> None:
+def _check_output(path: Path, ending: str) -> None:
     """Raise InputError where a file cannot be written, before anything is computed."""
     if path.suffix.lower() != ending and not path.is_dir():
         raise InputError(f"{path} will not be known for what it is; let its name end in {ending}.")
-    check_place(path)
+    check_output(path)
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from app.errors import InputError
 
 
-def check_place(path: Path) -> None:
+def check_output(path: Path) -> None:
     """Check that a file can be written, before anything is computed for it.
 
     Raises:

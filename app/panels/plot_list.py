@@ -9,6 +9,7 @@ import numpy as np
 import viser
 
 from app.analysis.survey import Survey
+from app.panels.histograms import upper_limit
 from app.panels.tables import PLOTTED, metric_label, page_unit
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
@@ -78,7 +79,7 @@ class PlotSpec:
         """Axis ranges: the whole recording; values from 0, or symmetric, to a round number."""
         top = self.top
         if top is None:
-            top = _above(np.abs(np.concatenate(self.data(survey))) if survey else np.zeros(0))
+            top = upper_limit(np.abs(np.concatenate(self.data(survey))) if survey else [])
         # A margin, so that points at the ends are not cut.
         bottom = -1.06 * top if self.signed else -0.06 * top
         return {
@@ -235,12 +236,3 @@ def _means(survey: Survey) -> str:
         f"<div>Means, {pairs} with {metrics.points_with_flow} flow points</div>"
         f'<div style="{grid}">{"".join(cells)}</div>'
     )
-
-
-def _above(values: np.ndarray) -> float:
-    """Least of 1, 2 or 5 times a power of ten that is not below any of the values."""
-    largest = float(np.nanmax(values)) if np.isfinite(values).any() else 0.0
-    if largest <= 0:
-        return 1.0
-    power = 10.0 ** math.floor(math.log10(largest))
-    return next(step * power for step in (1, 2, 5, 10) if step * power >= largest)

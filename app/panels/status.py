@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from app.panels.panel import Panel, PanelContext
-from app.panels.tables import PLOTTED, metric_title, page_unit
+from app.panels.tables import PLOTTED, framed, metric_title, page_unit
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
 from app.session.snapshot import Snapshot
@@ -41,7 +41,7 @@ class StatusPanel(Panel):
         """Show the numbers of the pair."""
         if snapshot.pair is None:
             self._shown = None
-            self._content.content = _framed("This frame cannot be shown.")
+            self._content.content = framed("This frame cannot be shown.")
             return
         if snapshot.pair is self._shown and snapshot.settings.palette is self._colours:
             return
@@ -53,11 +53,7 @@ class StatusPanel(Panel):
         note = note_on(pair, snapshot.parameters, snapshot.opened.recording.truth_frame)
         # Room for the note is always kept, so that controls below stay in place during a drag.
         note = f'<div style="min-height: 2.4em; line-height: 1.2">{escape(note)}</div>'
-        self._content.content = _framed(f'<div style="{grid}">{cells}</div>{note}')
-
-
-def _framed(content: str) -> str:
-    return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.5">{content}</div>'
+        self._content.content = framed(f'<div style="{grid}">{cells}</div>{note}')
 
 
 def facts(pair: Pair, colours: Palette) -> list[Fact]:

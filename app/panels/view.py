@@ -150,7 +150,7 @@ class ViewPanel(Panel):
             step=0.05,
             initial_value=self._settings.arrow_scale,
             marks=((0.05, "0.05"), (2.0, "2 s")),
-            hint="An arrow is as long as the way that is gone in this time [s].",
+            hint="An arrow is as long as the distance moved in this time [s].",
         )
         point_size = self._gui.add_slider(
             "Point size",

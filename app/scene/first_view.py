@@ -64,9 +64,9 @@ def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> f
     right = np.cross([0.0, 0.0, 1.0], direction)
     right = right / np.linalg.norm(right)
     up = np.cross(direction, right)
-    ways = signs * half
-    aside = np.maximum(np.abs(ways @ right) / aspect, np.abs(ways @ up)) / slope
-    return float((aside + ways @ direction).max())
+    corners = signs * half
+    aside = np.maximum(np.abs(corners @ right) / aspect, np.abs(corners @ up)) / slope
+    return float((aside + corners @ direction).max())
 
 
 def percentile_corners(points: Vector) -> Vector:

@@ -127,4 +127,4 @@ def _flow(
 
 
 def _length(settings: ViewSettings) -> str:
-    return f"way in {settings.arrow_scale:g} s"
+    return f"motion in {settings.arrow_scale:g} s"

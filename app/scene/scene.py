@@ -132,11 +132,12 @@ class Scene:
             larger: factor on the size of points, for the picture instead of the page's window.
             height: of the picture, pixels.
         """
-        lens, way = Lens.between(view.position, view.look_at, fov), view.look_at - view.position
+        lens = Lens.between(view.position, view.look_at, fov)
+        gaze = view.look_at - view.position
         self._size(lens, larger)
         self._thicken(height / _REFERENCE_HEIGHT)
         try:
-            eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(way)
+            eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(gaze)
             # viser's renders ignore the camera's near plane.
             picked = [self._selection.points] if self._selection else []
             with self._clouds.clipped(eye, forward / np.linalg.norm(forward), lens.near, picked):

@@ -31,6 +31,6 @@ def ghost(pair: Pair) -> NDArray[np.float64]:
     """Moving source points displaced by their true motion over the interval, (M, 3)."""
     if pair.source is None or pair.truth is None or pair.truth.points is None:
         return np.zeros((0, 3))
-    way = pair.interval * pair.truth.points
+    displacement = pair.interval * pair.truth.points
     moving = np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
-    return pair.source.points[moving] + way[moving]
+    return pair.source.points[moving] + displacement[moving]

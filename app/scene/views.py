@@ -115,9 +115,9 @@ def _from_robot(
     """
     if len(moving):
         look_at = np.median(moving, axis=0)
-        ways = look_at - sensors
-        best = int(np.argmax((axes * ways).sum(axis=1) / np.linalg.norm(ways, axis=1)))
-        if np.linalg.norm(ways[best]) >= 0.1:
+        offsets = look_at - sensors
+        best = int(np.argmax((axes * offsets).sum(axis=1) / np.linalg.norm(offsets, axis=1)))
+        if np.linalg.norm(offsets[best]) >= 0.1:
             return View(sensors[best] + 0.01 * axes[best], look_at)
     counts = np.bincount(owner, minlength=len(sensors))
     depths = np.full(len(sensors), np.inf)

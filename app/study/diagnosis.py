@@ -50,7 +50,7 @@ def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> st
     found = wrong = 0
     fitness: list[float] = []
     displacements: list[float] = []
-    ways: list[float] = []
+    true_displacements: list[float] = []
     counting = [target_k for _, target_k in counting_pairs(recording, parameters.n)]
     for pair in _estimated(recording, parameters, counting):
         if pair.truth is None or pair.truth.points is None or pair.flow is None:
@@ -58,16 +58,16 @@ def diagnose_wrong_alignment(recording: Recording, parameters: Parameters) -> st
         off = list(_misaligned(pair.flow, pair.truth.points, pair.interval))
         found += bool(pair.flow.moving.any())
         wrong += bool(off)
-        for result_fitness, displacement, way in off:
+        for result_fitness, displacement, true_displacement in off:
             fitness.append(result_fitness)
             displacements.append(displacement)
-            ways.append(way)
+            true_displacements.append(true_displacement)
     if not wrong:
         return None
     return (
         f"In {wrong} of {found} pairs with a flow ICP aligns the moving cluster wrongly: fitness "
         f"{span(fitness, '.2f')}, mean displacement {span(displacements, '.2f')} m, where it went "
-        f"{span(ways, '.2f')} m."
+        f"{span(true_displacements, '.2f')} m."
     )
 
 
@@ -82,12 +82,12 @@ def _misaligned(
         moving = np.linalg.norm(true, axis=1) > MOVING_SPEED
         if moving.mean() <= 0.5:  # resting points labelled Moving are another error
             continue
-        off, way = (
+        off, true_displacement = (
             float(np.linalg.norm(velocity[moving], axis=1).mean()) * interval
             for velocity in (result.velocity - true, true)
         )
-        if off > _WRONG * way:
-            yield result.fitness, result.mean_displacement, way
+        if off > _WRONG * true_displacement:
+            yield result.fitness, result.mean_displacement, true_displacement
 
 
 def _estimated(

@@ -223,10 +223,10 @@ def _small_n(plan: Plan, rows: list[Row]) -> Iterator[str]:
         if coverage[first] > 0.9 * coverage[best]:
             yield f"{sentence}; detection does not fall for small n."
         elif method == "paper":
-            ways = span([speed * first * FRAME for speed in speeds], ".3f")
+            distances = span([speed * first * FRAME for speed in speeds], ".3f")
             yield (
                 f"{sentence}. In {first} frame{'s' if first > 1 else ''} of 1/15 s the mannequin "
-                f"goes {ways} m, and what moves by less than delta = {delta:g} m "
+                f"goes {distances} m, and what moves by less than delta = {delta:g} m "
                 f"counts as stationary, so detection falls for small n.{_PAPER_SMALL_N}"
             )
         else:

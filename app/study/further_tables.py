@@ -87,17 +87,17 @@ def metrics_table(plan: Plan, rows: list[Row]) -> Table:
                 line[key] = round(sum(found)) if key in _COUNTS and found else mean_of(found)
             lines.append(line)
     speeds = {speed for scenario in scenarios for speed in speeds_of(rows, scenario) if speed}
-    ways = [plan.parameters.n * FRAME * speed for speed in speeds]
-    these = f" than the {span(ways, '.2f')} m of these pairs" if ways else ""
+    distances = [plan.parameters.n * FRAME * speed for speed in speeds]
+    these = f" than the {span(distances, '.2f')} m of these pairs" if distances else ""
     return Table(
         "metrics",
         "The field's metrics",
         "Means over trials; pairs and points are sums. EPE3D, AccS, AccR and outliers compare "
         "every source point with its own truth over a pair; their thresholds (0.05, 0.10, 0.30 m) "
-        f"were made for longer ways{these}, so that a point at rest, or without a flow, often "
-        "counts as accurate. Read them with coverage and precision. Dynamic IoU: points that truly "
-        f"move, faster than {MOVING_SPEED:g} m/s, and got a flow, of all that do or did either. "
-        "False flow: points at rest that got a flow, of all at rest, over all pairs."
+        f"were made for longer displacements{these}, so that a point at rest, or without a flow, "
+        "often counts as accurate. Read them with coverage and precision. Dynamic IoU: points that "
+        f"truly move, faster than {MOVING_SPEED:g} m/s, and got a flow, of all that do or did "
+        "either. False flow: points at rest that got a flow, of all at rest, over all pairs."
         f"{truth_frame_text(plan)}",
         (
             Column("experiment", "Experiment"),

@@ -36,12 +36,12 @@ def test_it_says_what_is_drawn(pair):
         "Source: stationary",
         "Source: unassigned",
         "Target",
-        "Flow: way in 0.5 s",
+        "Flow: motion in 0.5 s",
         "True velocity",
         "Source moved by the truth",
     ]
     fewer = frozenset(LAYERS) - {STATIONARY, "Target", "Flow"}
-    assert not {"Source: stationary", "Target", "Flow: way in 0.5 s"} & set(
+    assert not {"Source: stationary", "Target", "Flow: motion in 0.5 s"} & set(
         texts(pair, ViewSettings(layers=fewer))
     )
 
@@ -60,9 +60,9 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
     colours = {entry.text: entry.colour for entry in legend(pair, ViewSettings(), 0.3, A).entries}
     palette = ViewSettings().palette
-    assert colours["Flow of A: way in 0.5 s"] == palette.flow
-    assert colours["Flow of B: way in 0.5 s"] == palette.second
-    assert "Flow: way in 0.5 s" not in colours
+    assert colours["Flow of A: motion in 0.5 s"] == palette.flow
+    assert colours["Flow of B: motion in 0.5 s"] == palette.second
+    assert "Flow: motion in 0.5 s" not in colours
     assert "Source of A: moving" in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
     assert not [

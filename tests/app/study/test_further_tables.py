@@ -49,7 +49,7 @@ def test_metrics_are_all_that_evaluate_knows_and_sums_where_they_count():
     assert (line["pairs"], line["points_with_flow"]) == (14, 200)
     assert line["epe3d"] == pytest.approx(0.01)
     assert line["dynamic_iou"] is None
-    assert "ways than the 0.16 m of these pairs" in table.note
+    assert "displacements than the 0.16 m of these pairs" in table.note
     assert "truly move, faster than 0.01 m/s, and got a flow" in table.note
     slower = [*rows, made(speed=0.15, metrics=good(6.0, 0.03))]
     assert "the 0.08 to 0.16 m of these" in metrics_table(PLAN, slower).note
