@@ -5,7 +5,7 @@ import logging
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from app.commands import evaluate, export, info, simulate, study, view
 from app.commands.flags.parameter_flags import register_method_files
@@ -18,6 +18,11 @@ _LOG_LEVELS = ("debug", "info", "warning", "error", "critical")
 
 
 class _Parser(argparse.ArgumentParser):
+    """Parser whose errors are one sentence, and whose flags are written in full."""
+
+    def __init__(self, **options: Any) -> None:  # noqa: ANN401 (argparse's)
+        super().__init__(allow_abbrev=False, **options)
+
     def error(self, message: str) -> NoReturn:
         """Say what is wrong in one sentence, without the usage in front of it."""
         print(f"{self.prog}: {printable(message)}; see '{self.prog} --help'.", file=sys.stderr)

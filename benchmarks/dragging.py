@@ -83,7 +83,7 @@ def one_by_one(served: Served) -> str:
             wait_until(lambda value=value: hand.last()[1] == value)
             found += hand.latencies[:1]
             time.sleep(_PAUSE)
-        hand.client.trigger("One frame on")
+        hand.client.trigger("Next frame")
         time.sleep(1.0)
     hand.client.close()
     return _statistics(found)

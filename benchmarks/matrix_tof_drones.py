@@ -5,8 +5,8 @@ FOLDER being a flight such as `Matrix_ToF_Drones/Flight DataSet/Approach/A0`, an
 that is written. `docs/real_flights.md` says more.
 """
 
+import argparse
 import csv
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -91,4 +91,8 @@ def convert(folder: Path, file: Path) -> None:
 
 
 if __name__ == "__main__":
-    convert(Path(sys.argv[1]), Path(sys.argv[2]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="of a flight")
+    parser.add_argument("file", type=Path, metavar="FILE", help="recording that is written")
+    options = parser.parse_args()
+    convert(options.folder, options.file)

@@ -4,7 +4,7 @@ Together a pair is clustered once, and ICP rounds that methods share are run onc
 project's folder: `.venv/bin/python -m benchmarks.methods_together [METHOD ...]`.
 """
 
-import sys
+import argparse
 
 from threadpoolctl import threadpool_limits
 
@@ -15,7 +15,9 @@ from recordings import open_recording, sample_paths
 
 def main() -> None:
     """Print seconds of one core for each sample and their ratio, measured in this run."""
-    methods = sys.argv[1:] or ["paper", "baseline"]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("methods", nargs="*", metavar="METHOD", help="default: paper baseline")
+    methods = parser.parse_args().methods or ["paper", "baseline"]
     cases = [EvaluationCase(Parameters(method=method)) for method in methods]
     print(f"{'recording':24}  {'apart':>8}  {'together':>8}  ratio")
     sums = [0.0, 0.0]

@@ -4,7 +4,7 @@ Run it from the project's folder: `.venv/bin/python -m benchmarks.real_flights F
 `docs/real_flights.md` says what it is for, and what came of it.
 """
 
-import sys
+import argparse
 from contextlib import ExitStack
 from dataclasses import replace
 from itertools import count, product
@@ -110,8 +110,10 @@ def _row(what: str, score: tuple[float, float], p: Parameters) -> str:
 
 def main() -> None:
     """Search, and print what was found as a file of parameters."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a recording")
     with ExitStack() as stack:
-        found = search(Flights([Path(argument) for argument in sys.argv[1:]], stack))
+        found = search(Flights(parser.parse_args().files, stack))
     print(to_text(found), end="")
 
 

@@ -15,13 +15,15 @@ from estimator.flow import (
     scene_flow_of_points,
 )
 from estimator.method import Method, MethodError, Tracker, all_methods, find_method, register
+from estimator.metric_info import MetricInfo
 from estimator.metrics import (
+    ERROR_SYMBOLS,
     METRIC_INFO,
     MOVING_SPEED,
-    MetricInfo,
     Metrics,
     PooledErrors,
     angles_deg,
+    truly_moves,
 )
 from estimator.parameter_info import CheckedParameters, ParameterError, ParameterInfo, parameter
 from estimator.parameter_values import changed, from_nested, to_nested, values_of
@@ -30,6 +32,7 @@ from estimator.stages import Stages
 from estimator.window import LazyFrames, Window, window_of_pair
 
 __all__ = [
+    "ERROR_SYMBOLS",
     "METRIC_INFO",
     "MOVING_SPEED",
     "PARAMETER_INFO",
@@ -67,6 +70,7 @@ __all__ = [
     "register",
     "scene_flow_of_points",
     "to_nested",
+    "truly_moves",
     "values_of",
     "window_of_pair",
 ]

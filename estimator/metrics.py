@@ -17,14 +17,14 @@ the same recordings, together with coverage and precision.
 """
 
 import math
-import re
-from dataclasses import dataclass, field, fields
-from typing import Any, Literal
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from estimator.flow import SceneFlow
+from estimator.metric_info import MetricInfo, metric
 
 MOVING_SPEED = 0.01
 """Speed in m/s above which the truth counts as motion."""
@@ -37,64 +37,11 @@ RELATIVE_EPSILON = 1e-4
 """Metres in the denominator of r, as in HPLFlowNet (Argoverse 2 has 1e-10, ICP-Flow 1e-20)."""
 
 
-MetricKind = Literal["count", "share", "error", "signed"]
-"""A whole number; a fraction from 0 to 1; a number not below 0; a number of either sign."""
-
-
-@dataclass(frozen=True)
-class MetricInfo:
-    """Description of a metric, from which tables, files, plots and the page are made.
-
-    Attributes:
-        title: its name.
-        short: abbreviated name.
-        unit: "" for a plain number.
-        form: format of its values.
-        kind: range of its values.
-        definition: in words.
-        source: publication that defines it.
-        plotted: whether the page plots it for every pair.
-    """
-
-    title: str
-    short: str
-    unit: str
-    form: str
-    kind: MetricKind
-    definition: str
-    source: str
-    plotted: bool = False
-
-    @property
-    def heading(self) -> str:
-        """Its title with its unit."""
-        return f"{self.title} {self.unit}".strip()
-
-    @property
-    def spec(self) -> str:
-        """Format specification of its values, with a sign where it is signed."""
-        return f"+{self.form}" if self.kind == "signed" else self.form
-
-    def text(self, value: float | None) -> str:
-        """Format a value, – where it is undefined."""
-        return "–" if value is None or math.isnan(value) else format(value, self.spec)
-
-
-def _metric(
-    title: str,
-    definition: str,
-    source: str = "",
-    *,
-    kind: MetricKind = "share",
-    short: str = "",
-    unit: str = "",
-    form: str = ".3f",
-    plotted: bool = False,
-) -> Any:  # noqa: ANN401 (a dataclass field)
-    if not re.fullmatch(r"d|\.\d+f", form):
-        raise ValueError(f"{title}: a format is written d or .3f, and not {form!r}.")
-    info = MetricInfo(title, short or title, unit, form, kind, definition, source, plotted)
-    return field(metadata={"metric": info})
+ERROR_SYMBOLS = (
+    "e is the length of the difference between a point's estimated displacement over a pair (zero "
+    "without a flow) and its true one, r is e divided by the length of the true one"
+)
+"""What `e` and `r` in definitions of metrics mean."""
 
 
 @dataclass(frozen=True)
@@ -106,13 +53,16 @@ class Metrics:
     A point whose own truth is unknown enters only the paper's errors. `METRIC_INFO` defines each.
     """
 
-    pairs: int = _metric(
-        "pairs", "pairs that count, those without any flow included", kind="count", form="d"
+    pairs: int = metric(
+        "pairs",
+        "pairs at both frames of which the object moves, also those without any flow",
+        kind="count",
+        form="d",
     )
-    points_with_flow: int = _metric(
-        "points with flow", "source points with a flow in all of them", kind="count", form="d"
+    points_with_flow: int = metric(
+        "points with flow", "source points with a flow, in all these pairs", kind="count", form="d"
     )
-    angle_deg: float = _metric(
+    angle_deg: float = metric(
         "angle deviation",
         "mean angle between each flow and the moving object's velocity; a flow of exactly zero "
         "has no direction and is left out",
@@ -122,7 +72,7 @@ class Metrics:
         form=".2f",
         plotted=True,
     )
-    velocity_error: float = _metric(
+    velocity_error: float = metric(
         "velocity error",
         "mean length of the difference between each flow and the moving object's velocity",
         "paper, section IV",
@@ -132,49 +82,47 @@ class Metrics:
         form=".4f",
         plotted=True,
     )
-    coverage: float = _metric(
+    coverage: float = metric(
         "coverage", "truly moving points that got a flow / truly moving points", plotted=True
     )
-    precision: float = _metric(
+    precision: float = metric(
         "precision", "points with a flow that truly move / points with a flow", plotted=True
     )
-    epe3d: float = _metric(
+    epe3d: float = metric(
         "EPE3D",
-        "end-point error, mean e per pair",
+        "end-point error, mean of e over all points",
         "FlowNet3D (Liu et al., CVPR 2019)",
         kind="error",
         unit="m",
         form=".4f",
     )
-    acc_s: float = _metric(
+    acc_s: float = metric(
         "AccS",
-        "strict accuracy: share of points with e < 0.05 m or r < 0.05",
+        f"strict accuracy, share of points with e < {STRICT:.2f} m or r < {STRICT:.2f}",
         "HPLFlowNet (Gu et al., CVPR 2019), evaluation_utils.evaluate_3d; the same in Argoverse 2 "
         "and ICP-Flow",
     )
-    acc_r: float = _metric(
+    acc_r: float = metric(
         "AccR",
-        "relaxed accuracy: share of points with e < 0.10 m or r < 0.10",
+        f"relaxed accuracy, share of points with e < {RELAXED:.2f} m or r < {RELAXED:.2f}",
         "HPLFlowNet, as AccS",
     )
-    outliers: float = _metric(
+    outliers: float = metric(
         "outliers",
-        "share of points with e > 0.30 m or r > 0.10",
+        f"share of points with e > {OUTLYING:.2f} m or r > {RELAXED:.2f}",
         "HPLFlowNet; ICP-Flow's ROutliers, which want both, and the latter above 0.30, are not the "
         "same",
     )
-    dynamic_iou: float = _metric(
+    dynamic_iou: float = metric(
         "dynamic IoU",
-        "points that truly move and got a flow / points that truly move or got a flow, "
-        "TP / (TP + FP + FN). Truly moving is faster than MOVING_SPEED, as for coverage and "
-        "precision, so that sets of parameters can be compared; found to move is the method's own "
-        "decision, in the paper's the displacement gate delta",
+        "points that truly move and got a flow / points that truly move or got a flow; a point "
+        f"truly moves where it is faster than {MOVING_SPEED:g} m/s",
         "evaluation of Argoverse 2, which calls moving what goes 0.05 m per 0.1 s",
     )
-    false_flow: float = _metric(
+    false_flow: float = metric(
         "false flow",
         "points with a flow that do not truly move / points that do not truly move, over all "
-        "pairs whose truth is known, those that do not count included",
+        "pairs whose truth is known, also those at which nothing moves",
         form=".4f",
     )
 
@@ -188,7 +136,7 @@ class PooledErrors:
     """Accumulator of errors, pair by pair."""
 
     def __init__(self) -> None:
-        self._pairs = 0
+        self._counts = {name: 0 for name in METRIC_INFO if name not in _MEANS}
         self._means = {name: _Mean() for name in _MEANS}
 
     def add(
@@ -206,15 +154,17 @@ class PooledErrors:
             object_velocity: (N, 3) m/s of the moving object, as if each point belonged to it.
             point_velocity: (N, 3) m/s of each point itself, NaN where unknown; None without.
         """
-        self._pairs += 1
         moving = flow.moving
         estimated, true = flow.velocity[moving], object_velocity[moving]
+        self._counts["pairs"] += 1
+        velocity_error = np.linalg.norm(estimated - true, axis=1)
+        self._counts["points_with_flow"] += int(np.isfinite(velocity_error).sum())
         self._add("angle_deg", angles_deg(estimated, true))
-        self._add("velocity_error", np.linalg.norm(estimated - true, axis=1))
+        self._add("velocity_error", velocity_error)
         if point_velocity is None:
             return
         known = _known(point_velocity)
-        found, truly = moving[known], _moves(point_velocity[known])
+        found, truly = moving[known], truly_moves(point_velocity[known])
         self._add("coverage", found[truly])
         self._add("precision", truly[found])
         self._add("dynamic_iou", (found & truly)[found | truly])
@@ -236,28 +186,27 @@ class PooledErrors:
             point_velocity: (N, 3) m/s of each point itself, NaN where unknown.
         """
         known = _known(point_velocity)
-        self._add("false_flow", flow.moving[known][~_moves(point_velocity[known])])
+        self._add("false_flow", flow.moving[known][~truly_moves(point_velocity[known])])
 
     @property
     def sums(self) -> NDArray[np.float64]:
-        """Array for `include`: number of pairs, then sum and count of each mean."""
+        """Array for `include`: all counts, then sum and number of values of each mean."""
         means = self._means.values()
-        return np.array([self._pairs, *(v for m in means for v in (m.sum, m.count))])
+        return np.array([*self._counts.values(), *(v for m in means for v in (m.sum, m.count))])
 
     def include(self, sums: NDArray[np.float64]) -> None:
         """Add the pairs of another accumulator, given its `sums`."""
-        self._pairs += int(sums[0])
-        for mean, (total, count) in zip(self._means.values(), sums[1:].reshape(-1, 2), strict=True):
+        counts, means = np.split(sums, [len(self._counts)])
+        for name, count in zip(self._counts, counts, strict=True):
+            self._counts[name] += int(count)
+        for mean, (total, count) in zip(self._means.values(), means.reshape(-1, 2), strict=True):
             mean.sum += float(total)
             mean.count += int(count)
 
     def metrics(self) -> Metrics:
         """The errors of all pairs added so far."""
-        return Metrics(
-            pairs=self._pairs,
-            points_with_flow=self._means["velocity_error"].count,
-            **{name: mean.value for name, mean in self._means.items()},
-        )
+        values: dict[str, Any] = {name: mean.value for name, mean in self._means.items()}
+        return Metrics(**self._counts, **values)
 
     def _add(self, name: str, values: NDArray[np.float64] | NDArray[np.bool_]) -> None:
         self._means[name].add(values)
@@ -267,7 +216,8 @@ def _known(point_velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(point_velocity).all(axis=1))
 
 
-def _moves(velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
+def truly_moves(velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Mask (N,) of velocities (N, 3) m/s above `MOVING_SPEED`; False where unknown (NaN)."""
     return np.linalg.norm(velocity, axis=1) > MOVING_SPEED
 
 

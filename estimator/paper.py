@@ -15,7 +15,7 @@ from estimator.clustering import Cluster, clusters_of
 from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow, cluster_result, scene_flow
 from estimator.method import Method
 from estimator.parameters import Parameters
-from estimator.rounds import USED, icp_round, too_few_points
+from estimator.rounds import THRESHOLDS, USED, icp_round, too_few_points
 from estimator.window import Window
 
 MAX_ROUNDS = 20
@@ -61,4 +61,4 @@ def classify(cluster: Cluster, window: Window, parameters: Parameters) -> Cluste
     return cluster_result(cluster, source, rounds, Label.UNASSIGNED, reason)
 
 
-ALGORITHM_1 = Method("paper", algorithm_1, title="Algorithm 1", uses=(*USED, "gamma", "delta"))
+ALGORITHM_1 = Method("paper", algorithm_1, title="Algorithm 1", uses=(*USED, *THRESHOLDS))

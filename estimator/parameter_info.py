@@ -43,6 +43,11 @@ class ParameterInfo:
     optional: bool = False
     default: Any = None
 
+    @property
+    def kind_text(self) -> str:
+        """The type of its values in words."""
+        return _KINDS[self.kind]
+
 
 def parameter(
     default: Any,  # noqa: ANN401 (a dataclass field of any type)
@@ -146,4 +151,4 @@ def _sentence(name: str, value: object, info: ParameterInfo, error: ValidationEr
         if math.isinf(info.low) and math.isinf(info.high):
             return f"{name} must be a finite number, got {value!r}."
         return f"{name} must be between {info.low:g} and {info.high:g}{unit}, got {value!r}."
-    return f"{name} must be {_KINDS[info.kind]}, got {value!r}."
+    return f"{name} must be {info.kind_text}, got {value!r}."

@@ -5,15 +5,14 @@ from numpy.typing import NDArray
 
 from estimator.flow import IcpRound, Indices
 from estimator.icp import register
-from estimator.method import SHARED
-from estimator.parameters import Parameters
+from estimator.parameters import PARAMETER_INFO, Parameters
 from estimator.window import Window
 
 MIN_POINTS = 3
-USED = (
-    *(*SHARED, "n_min", "min_cluster_size", "min_samples", "allow_single_cluster"),
-    "max_correspondence_distance",
-)
+THRESHOLDS = ("gamma", "delta")
+"""Parameters of the two steps that Algorithm 1 adds."""
+
+USED = tuple(name for name in PARAMETER_INFO if name not in ("method", *THRESHOLDS))
 """Parameters that clusters and rounds depend on."""
 
 

@@ -1,5 +1,6 @@
 """Choice of the frame that a recording opens at."""
 
+import logging
 import time
 
 import numpy as np
@@ -10,6 +11,7 @@ from app.analysis.library import Opened
 from estimator import Parameters
 from recordings import Recording
 
+_LOG = logging.getLogger(__name__)
 _TRIED = 9  # frames at most
 _SECONDS = 1.5  # limit of the search, so that opening stays quick
 _ENOUGH = 20  # moving points at which the search ends
@@ -32,7 +34,8 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
         try:
             pair = estimates.estimated(opened, frame, parameters)
         except Exception:
-            continue  # reported when the frame is shown
+            _LOG.exception("%s: frame %d cannot be estimated", opened.recording.name, frame)
+            continue
         moving = int(pair.flow.moving.sum()) if pair.flow else 0
         if (moving, len(pair.target.points)) > (most, seen):
             best, most, seen = frame, moving, len(pair.target.points)

@@ -19,6 +19,7 @@ from estimator import (
     SceneFlow,
     Stages,
     Window,
+    truly_moves,
 )
 from recordings import Cloud, PairTruth, Recording
 from robot_assets import Transform
@@ -64,7 +65,7 @@ class Pair:
         size = len(self.source.points) if self.source else 0
         if self.truth is None or self.truth.points is None:
             return np.ones(size, dtype=bool)
-        moving = np.linalg.norm(self.truth.points, axis=1) > MOVING_SPEED
+        moving = truly_moves(self.truth.points)
         return moving if moving.any() else np.ones(size, dtype=bool)
 
     @property

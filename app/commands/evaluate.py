@@ -3,7 +3,9 @@
 import argparse
 import json
 import math
+import shutil
 import sys
+import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -28,9 +30,11 @@ from app.errors import UserError
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
 from app.terminal.printable import printable
-from estimator import METRIC_INFO, Metrics, Parameters, to_nested
+from estimator import ERROR_SYMBOLS, METRIC_INFO, Metrics, Parameters, to_nested
 
 _MEANS = tuple(key for key, info in METRIC_INFO.items() if info.kind != "count")
+_NUMBER = 6
+"""Characters of a number without a sign."""
 _TITLES = [info.heading.split() for info in METRIC_INFO.values()]
 
 
@@ -41,19 +45,34 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         help="errors against the truth",
         description=(
             "Estimate every pair of frames at which the object moves, and compare with the truth. "
-            "angle and velocity error compare every point that has a flow with the moving "
-            "object's velocity, as the paper does; what follows them needs the truth of every "
-            "point. EPE3D, AccS, AccR and outliers are the field's, over a pair, and their "
-            "thresholds of 0.05 to 0.3 m were made for longer displacements than these; false flow "
-            "is the share of points at rest that got a flow, over all pairs, also those at which "
-            "nothing moves. The exit code is 1 where nothing could be evaluated."
+            "The exit code is 1 where nothing could be evaluated."
         ),
+        epilog=_definitions(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="recording or folder")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table as JSON, too")
     add_recording_flags(parser)
     add_parameter_flags(parser)
     parser.set_defaults(run=run)
+
+
+def _definitions() -> str:
+    """Definitions of the columns, for the help."""
+    columns = [
+        f"{info.described}{f' [{info.source}]' if info.source else ''}"
+        for info in METRIC_INFO.values()
+    ]
+    needs = (
+        "What follows the velocity error needs the truth of every point. Thresholds of AccS, AccR "
+        "and outliers are the field's, made for longer displacements than these."
+    )
+    width = shutil.get_terminal_size().columns - 2
+    lines = [
+        textwrap.fill(line, width, initial_indent="  ", subsequent_indent="      ")
+        for line in [*columns, f"Here {ERROR_SYMBOLS}.", needs]
+    ]
+    return "\n".join(["columns of the table:", *lines])
 
 
 def run(options: argparse.Namespace) -> int:
@@ -163,7 +182,9 @@ class _Table:
     def __init__(self, names: list[str]) -> None:
         longest = max(cell_len(printable(name)) for name in names)
         # Names of means are longer.
-        self._widths = [max(20, longest + 1), *(max(6, *map(len, words)) for words in _TITLES)]
+        self._widths = [max(20, longest + 1)]
+        for words, info in zip(_TITLES, METRIC_INFO.values(), strict=True):
+            self._widths.append(max(_NUMBER + (info.kind == "signed"), *map(len, words)))
 
     def heading(self) -> list[str]:
         """Titles with one word a line, bottom-aligned, so that the table stays narrow."""

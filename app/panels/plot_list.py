@@ -27,12 +27,14 @@ class Line:
     Attributes:
         label: empty if the plot's title suffices.
         name: attribute or metric of the survey.
+        form: format of its values.
         colour: of the points, as in the scene.
         needs_truth: whether it is empty without truth.
     """
 
     label: str
     name: str
+    form: str
     colour: Callable[[Palette], Colour]
     needs_truth: bool = False
 
@@ -44,7 +46,6 @@ class PlotSpec:
     Attributes:
         title: without the unit.
         unit: "" for none.
-        form: format of its values.
         lines: its series.
         needs_truth: whether all series need truth.
         top: end of the vertical axis, None to follow the data.
@@ -53,7 +54,6 @@ class PlotSpec:
 
     title: str
     unit: str
-    form: str
     lines: tuple[Line, ...]
     needs_truth: bool
     top: float | None = None
@@ -134,7 +134,7 @@ class PlotSpec:
 
     def _value(self, line: Line, survey: Survey | None, frame: int, colours: Palette) -> str:
         value = float(_values(survey, line.name)[frame]) if survey else math.nan
-        text = "–" if math.isnan(value) else format(value, self.form)
+        text = "–" if math.isnan(value) else format(value, line.form)
         return (
             '<span style="width: 0.6em; height: 0.6em; border-radius: 50%; align-self: center;'
             f' margin: 0 0.4em 0 0.9em; background: {css(line.colour(colours))}"></span>'
@@ -158,35 +158,34 @@ def _flow(colours: Palette) -> Colour:
 
 
 def _metric_plots() -> Iterator[PlotSpec]:
-    """One plot per error, and one of all shares."""
+    """One plot per metric, and one of all shares."""
     infos = {name: METRIC_INFO[name] for name in PLOTTED}
+    shares = {name: info for name, info in infos.items() if info.kind == "share"}
     for name, info in infos.items():
-        if info.kind in ("error", "signed"):
+        if name not in shares:
             yield PlotSpec(
                 title=info.title[:1].upper() + info.title[1:],
                 unit=page_unit(info.unit),
-                form=info.spec,
-                lines=(Line("", name, _flow),),
+                lines=(Line("", name, info.spec, _flow),),
                 needs_truth=True,
                 signed=info.kind == "signed",
             )
-    shares = [name for name, info in infos.items() if info.kind == "share"]
-    lines = (
-        Line(infos[name].short, name, lambda colours, index=index: colours.category(index))
-        for index, name in enumerate(shares)
+    lines = tuple(
+        Line(info.short, name, info.spec, lambda colours, index=index: colours.category(index))
+        for index, (name, info) in enumerate(shares.items())
     )
-    yield PlotSpec("Shares", "", infos[shares[0]].form, tuple(lines), True, top=1.0)
+    if lines:
+        yield PlotSpec("Shares", "", lines, True, top=1.0)
 
 
 PLOTS = (
-    PlotSpec("Moving points", "", ".0f", (Line("", "moving", _flow),), False),
+    PlotSpec("Moving points", "", (Line("", "moving", ".0f", _flow),), False),
     PlotSpec(
         "Speed",
         "m/s",
-        ".3f",
         (
-            Line("est.", "speed", _flow),
-            Line("true", "true_speed", lambda colours: colours.truth, needs_truth=True),
+            Line("est.", "speed", ".3f", _flow),
+            Line("true", "true_speed", ".3f", lambda colours: colours.truth, needs_truth=True),
         ),
         False,
     ),

@@ -1,6 +1,7 @@
 """Numbers of the current pair."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 
@@ -13,7 +14,7 @@ from app.panels.tables import PLOTTED, framed, metric_title, page_unit
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
 from app.session.snapshot import Snapshot
-from estimator import METRIC_INFO, Label, Parameters, SceneFlow
+from estimator import METRIC_INFO, Label, Parameters, SceneFlow, find_method
 
 _NOTHING = "–"
 
@@ -112,18 +113,25 @@ def _why_nothing_moves(pair: Pair, flow: SceneFlow, parameters: Parameters) -> s
     if size == 0 or len(pair.target.points) == 0:
         empty = "source" if size == 0 else "target"
         return f"Nothing moves: the {empty} is empty."
+    uses = find_method(parameters.method).uses
+    reason = next((text for name, text in _reasons(flow, parameters) if name in uses), "")
+    return f"Nothing moves: {reason}." if reason else "Nothing moves."
+
+
+def _reasons(flow: SceneFlow, parameters: Parameters) -> Iterator[tuple[str, str]]:
+    """Reasons why nothing moves, each after the parameter that it depends on, the first first."""
     if not flow.clusters:
         hint = "" if parameters.allow_single_cluster else " or allow a single cluster"
-        return f"Nothing moves: no clusters; try a smaller min_cluster_size{hint}."
+        yield "min_cluster_size", f"no clusters; try a smaller min_cluster_size{hint}"
+        return
     if all(len(c.source) < parameters.n_min > len(c.target) for c in flow.clusters):
         largest = max(max(len(c.source), len(c.target)) for c in flow.clusters)
-        return f"Nothing moves: every cluster is below N_min; the largest has {largest} points."
-    stationary = [c for c in flow.clusters if c.label is Label.STATIONARY]
-    if stationary:
+        yield "n_min", f"every cluster is below N_min; the largest has {largest} points"
+    if stationary := [c for c in flow.clusters if c.label is Label.STATIONARY]:
         most = max(c.mean_displacement for c in stationary)
-        return f"Nothing moves: displacements reach {1e3 * most:.0f} mm, below δ."
+        yield "delta", f"displacements reach {1e3 * most:.0f} mm, below δ"
     fitness = max((r.fitness for c in flow.clusters for r in c.rounds), default=0.0)
-    return f"Nothing moves: fitness reaches {fitness:.2f}, not above γ."
+    yield "gamma", f"fitness reaches {fitness:.2f}, not above γ"
 
 
 def _count(labels: NDArray[np.int64] | None, label: Label) -> str:

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
-from estimator import MOVING_SPEED
+from estimator import truly_moves
 
 _ABOVE = 0.12  # height of the arrow above the moving points, metres
 
@@ -32,5 +32,5 @@ def ghost(pair: Pair) -> NDArray[np.float64]:
     if pair.source is None or pair.truth is None or pair.truth.points is None:
         return np.zeros((0, 3))
     displacement = pair.interval * pair.truth.points
-    moving = np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
+    moving = truly_moves(pair.truth.points)
     return pair.source.points[moving] + displacement[moving]

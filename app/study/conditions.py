@@ -1,10 +1,12 @@
 """Conditions and commands of a study, as sentences for captions and the page."""
 
 import shlex
+from collections.abc import Iterable
 
+from app.analysis.method_files import method_files
 from app.analysis.parameter_files import flag_of
 from app.study.plan import Plan
-from estimator import PARAMETER_INFO, ParameterInfo, find_method, values_of
+from estimator import METRIC_INFO, PARAMETER_INFO, ParameterInfo, find_method, values_of
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS
 
 
@@ -44,6 +46,12 @@ def truth_frame_text(plan: Plan) -> str:
     )
 
 
+def definitions(metrics: Iterable[str]) -> str:
+    """Definitions of metrics, a sentence for each that is not a count."""
+    infos = [METRIC_INFO[name] for name in metrics]
+    return " ".join(f"{info.described}." for info in infos if info.kind != "count")
+
+
 def parameters_text(plan: Plan) -> str:
     """Names and values of all parameters of the study's methods."""
     values = values_of(plan.parameters)
@@ -75,6 +83,7 @@ def study_command(plan: Plan) -> str:
     """Command that evaluates the recordings of `simulate_command`."""
     flags: list[str] = []
     values = values_of(plan.parameters)
+    methods = [text for name in plan.methods for text in method_files([name]) or (name,)]
     for name, info in _infos(plan).items():
         value, flag = values[name], flag_of(name)
         if value == info.default:
@@ -85,7 +94,7 @@ def study_command(plan: Plan) -> str:
             flags += [flag, str(value)]
     return shlex.join(
         [
-            *("tofscope", "study", "--recordings", "recordings", "--method", *plan.methods),
+            *("tofscope", "study", "--recordings", "recordings", "--method", *methods),
             *("--sweep", *map(str, plan.sweep), *flags, "--out", "FOLDER"),
         ]
     )

@@ -10,7 +10,7 @@ from app.analysis.evaluation import counting_pairs
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, prepare_pair
 from app.study.ranges import span
-from estimator import MOVING_SPEED, Label, Parameters, SceneFlow
+from estimator import Label, Parameters, SceneFlow, truly_moves
 from recordings import Recording
 
 _WRONG = 0.5
@@ -30,7 +30,7 @@ def diagnose_missing_flow(recording: Recording, parameters: Parameters) -> str |
     pair = next(_estimated(recording, parameters, [target_k]))
     if pair.truth is None or pair.truth.points is None or pair.flow is None:
         return None
-    flow, moving = pair.flow, np.linalg.norm(pair.truth.points, axis=1) > MOVING_SPEED
+    flow, moving = pair.flow, truly_moves(pair.truth.points)
     if not moving.any():
         return None
     cluster, count = Counter(flow.cluster[moving].tolist()).most_common(1)[0]
@@ -79,7 +79,7 @@ def _misaligned(
         if result.label != Label.MOVING:
             continue
         true = points[result.remaining]
-        moving = np.linalg.norm(true, axis=1) > MOVING_SPEED
+        moving = truly_moves(true)
         if moving.mean() <= 0.5:  # resting points labelled Moving are another error
             continue
         off, true_displacement = (

@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Iterator
 from itertools import product
 
-from app.study.conditions import truth_frame_text
+from app.study.conditions import definitions, truth_frame_text
 from app.study.paper import FRAME, LABELS, experiment_label
 from app.study.plan import Plan
 from app.study.ranges import span
 from app.study.rows import Row, Value, cell, mean, mean_of, speeds_of, std, values
 from app.study.table import Column, Table
 from app.study.work import SWEPT_SCENARIO, Simulated
-from estimator import METRIC_INFO, MOVING_SPEED
+from estimator import ERROR_SYMBOLS, METRIC_INFO
 from recordings.simulation import IMPERFECTIONS, PAPER_SCENARIOS, SCENARIOS
 
 _COUNTS = tuple(key for key, info in METRIC_INFO.items() if info.kind == "count")
@@ -48,9 +48,8 @@ def scenarios_table(plan: Plan, rows: list[Row]) -> Table | None:
         "Scenarios beyond the paper's",
         "Means and sample deviations over trials. Angle deviation and velocity error compare every "
         "flow with the motion of the target alone, its turning included, such as that of the one "
-        "in front of two that cross; coverage, precision and false flow know what "
-        "every point does. Where nothing moves every flow is false, and only false flow (points "
-        "at rest that got a flow, of all at rest, over all pairs) is defined."
+        f"in front of two that cross; the others know what every point does. {definitions(_FOUND)} "
+        "Where nothing moves every flow is false, and only false flow is defined."
         f"{f' {texts}.' if texts else ''}",
         (
             Column("experiment", "Scenario"),
@@ -92,12 +91,10 @@ def metrics_table(plan: Plan, rows: list[Row]) -> Table:
     return Table(
         "metrics",
         "The field's metrics",
-        "Means over trials; pairs and points are sums. EPE3D, AccS, AccR and outliers compare "
-        "every source point with its own truth over a pair; their thresholds (0.05, 0.10, 0.30 m) "
-        f"were made for longer displacements{these}, so that a point at rest, or without a flow, "
-        "often counts as accurate. Read them with coverage and precision. Dynamic IoU: points that "
-        f"truly move, faster than {MOVING_SPEED:g} m/s, and got a flow, of all that do or did "
-        "either. False flow: points at rest that got a flow, of all at rest, over all pairs."
+        f"Means over trials; pairs and points are sums. {definitions(shown)} Here "
+        f"{ERROR_SYMBOLS}; thresholds of AccS, AccR and outliers were made for longer "
+        f"displacements{these}, so that a point at rest, or without a flow, often counts as "
+        "accurate. Read them with coverage and precision."
         f"{truth_frame_text(plan)}",
         (
             Column("experiment", "Experiment"),

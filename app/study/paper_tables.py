@@ -2,7 +2,7 @@
 
 from itertools import product
 
-from app.study.conditions import truth_frame_text
+from app.study.conditions import definitions, truth_frame_text
 from app.study.paper import experiment_label, paper_numbers
 from app.study.plan import Plan
 from app.study.rows import Row, Value, cell, mean, speeds_of, std, values
@@ -28,10 +28,9 @@ _COLUMNS = (
 )
 _NOTE = (
     "Each recording gives a mean over all points with a flow and over time; mean and std (sample) "
-    "are over recordings, the trials. Beside each stands the paper's. Coverage: truly moving "
-    "points that got a flow, of all that truly move. Precision: points with a flow that truly "
-    "move, of all with a flow. Trials: recordings in which a point got a flow, of all there are. "
-    "Pairs: of frames at both of which the object moves, in all of the recordings."
+    "are over recordings, the trials. Beside each stands the paper's. "
+    f"{definitions(('coverage', 'precision'))} Trials: recordings in which a point got a flow, of "
+    "all there are. Pairs: of frames at both of which the object moves, in all of the recordings."
 )
 
 

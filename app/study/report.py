@@ -213,7 +213,7 @@ def _last(study: Study) -> page.Section:
                 f"{duration(estimating)} to estimate; this run took {duration(study.seconds)} on "
                 "the clock, results that were there before left out.",
                 "Versions": ", ".join(f"{name} {number}" for name, number in versions().items()),
-                "Software": f"digest {software_digest()[:16]}",
+                "Software": f"digest {software_digest(plan.method_files)[:16]}",
                 "Paper": paper_numbers().source,
             }
         ),

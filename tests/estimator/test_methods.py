@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from estimator import find_method, method_names
+from estimator import PARAMETER_INFO, find_method, method_names
 from estimator.baseline import baseline
 from estimator.paper import algorithm_1
 
@@ -30,3 +30,10 @@ def test_naming_the_methods_loads_neither_open3d_nor_scikit_learn():
         "sys.exit(bool({'open3d', 'sklearn'} & set(sys.modules)))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_every_parameter_is_one_of_algorithm_1():
+    """So that a new field of `Parameters` has a control on the page without a further list."""
+    assert set(find_method("paper").infos()) == set(PARAMETER_INFO) - {"method"}
+    added = set(find_method("paper").infos()) - set(find_method("baseline").infos())
+    assert added == {"gamma", "delta"}

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from estimator import PARAMETER_INFO, ParameterError, Parameters, method_names
 
 NUMBERS = [name for name, info in PARAMETER_INFO.items() if math.isfinite(info.low)]
-INTEGERS = ["n", "n_min", "min_cluster_size", "min_samples"]
+INTEGERS = [name for name, info in PARAMETER_INFO.items() if info.kind is int]
 
 
 def with_value(name: str, value: Any) -> Parameters:

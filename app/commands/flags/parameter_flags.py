@@ -1,7 +1,7 @@
 """The estimator's parameters as flags of the command line, one flag per parameter."""
 
 import argparse
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -113,8 +113,20 @@ def _add_flag(group: argparse._ArgumentGroup, name: str, info: ParameterInfo) ->
     elif info.choices:
         group.add_argument(flag, dest=name, choices=info.choices, default=unset, help=text)
     else:
-        unit = info.unit.upper() or "VALUE"
-        group.add_argument(flag, dest=name, type=info.kind, metavar=unit, default=unset, help=text)
+        unit, read = info.unit.upper() or "VALUE", _reader(info)
+        group.add_argument(flag, dest=name, type=read, metavar=unit, default=unset, help=text)
+
+
+def _reader(info: ParameterInfo) -> Callable[[str], object]:
+    """Function from a flag's text to a value of the parameter's type."""
+
+    def read(text: str) -> object:
+        try:
+            return info.kind(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"must be {info.kind_text}, got {text!r}") from None
+
+    return read
 
 
 def _help(info: ParameterInfo) -> str:

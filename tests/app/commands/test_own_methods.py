@@ -70,6 +70,7 @@ def test_a_study_compares_them_in_any_number_of_processes(
     assert tables["parameters"]["centroid"] == {"memory": 3}
     page = (tmp_path / "index.html").read_text()
     assert "centroid.memory = 3 steps" in page
+    assert f"digest {tables['software'][:16]}" in page
 
 
 FAILING = """

@@ -11,14 +11,15 @@ from app.analysis.estimates import Estimates
 from app.analysis.evaluation import evaluate
 from app.analysis.survey import Survey
 from app.analysis.surveys import Surveys
-from app.panels.plot_list import summary
+from app.panels.plot_list import PLOTS, summary
 from app.panels.plots import PlotsPanel, SavePlots
+from app.panels.tables import PLOTTED
 from app.panels.time_field import SeekTime
 from app.scene.colours import css
 from app.scene.settings import ViewSettings
 from app.session.followed_survey import FollowedSurvey
 from app.session.snapshot import TimeSeek
-from estimator import Parameters
+from estimator import METRIC_INFO, Parameters
 from recordings import PairTruth
 from tests.app.analysis.test_survey import filled
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
@@ -105,8 +106,10 @@ def test_without_truth_the_plots_that_need_none_stay_and_it_says_so(client):
     fake.truth = lambda _: None
     fake.pair_truth = lambda *_: None
     bench = Bench(client, fake)
-    assert [plot.visible for plot in bench.plots] == [True, True, False, False, False]
-    assert labelled(bench) == [False, True, False, False, False]
+    visible = [not spec.needs_truth for spec in PLOTS]
+    assert [plot.visible for plot in bench.plots] == visible
+    last = len(visible) - 1 - visible[::-1].index(True)
+    assert labelled(bench) == [i == last for i in range(len(PLOTS))]
     bench.fill()
     assert "No truth in this recording" in client.text()
     assert ">est.<" in client.text()
@@ -120,7 +123,7 @@ def labelled(bench):
 
 def test_the_last_plot_has_the_times_below_it(client):
     bench = Bench(client)
-    assert labelled(bench) == [False, False, False, False, True]
+    assert labelled(bench) == [spec is PLOTS[-1] for spec in PLOTS]
     assert len({plot.height for plot in bench.plots[:-1]}) == 1
     assert bench.plots[-1].height > bench.plots[0].height
     assert ">true<" in client.text()
@@ -229,12 +232,7 @@ def test_the_summary_says_what_evaluate_says():
     assert metrics is not None
     said = summary(filled(opened, parameters, Estimates()), has_truth=True)
     numbers = re.findall(r"tabular-nums\">([^<]+)<", said)
-    assert numbers == [
-        f"{metrics.angle_deg:.2f}",
-        f"{metrics.velocity_error:.4f}",
-        f"{metrics.coverage:.3f}",
-        f"{metrics.precision:.3f}",
-    ]
+    assert numbers == [METRIC_INFO[name].text(getattr(metrics, name)) for name in PLOTTED]
 
 
 def test_a_recording_none_of_whose_pairs_counts_says_so():

@@ -1,11 +1,13 @@
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
 from app.panels.status import StatusPanel, facts, note_on
+from app.panels.tables import PLOTTED, metric_title
 from app.scene.palettes import PAPER, palette
-from estimator import Parameters
+from estimator import Method, Parameters, register, scene_flow_of_points
 from tests.app.fake_recordings import fake_opened, fake_recording
 from tests.app.fake_session import context, snapshot
 
@@ -17,12 +19,11 @@ def said(pair):
 def test_all_numbers_of_a_pair():
     pair = Estimates().estimated(fake_opened(), 20, Parameters())
     numbers = said(replace(pair, milliseconds=61.4))
-    assert numbers["Vel. error"] == "0.0000 m/s"
-    assert numbers["Angle deviation"] == "0.00°"
-    del numbers["Vel. error"], numbers["Angle deviation"]
+    errors = {metric_title(name): numbers.pop(metric_title(name)) for name in PLOTTED}
+    assert errors["Vel. error"] == "0.0000 m/s"
+    assert errors["Angle deviation"] == "0.00°"
+    assert errors["Coverage"] == errors["Precision"] == "1.000"
     assert numbers == {
-        "Coverage": "1.000",
-        "Precision": "1.000",
         "Source": "500",
         "Target": "500",
         "Moving": "100",
@@ -84,6 +85,14 @@ def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
 def test_why_nothing_moves_is_said_in_words(parameters, why):
     pair = Estimates().estimated(fake_opened(), 20, parameters)
     assert note_on(pair, parameters) == f"Nothing moves: {why}."
+
+
+@pytest.mark.usefixtures("methods_of_a_test")
+def test_no_advice_is_given_on_parameters_that_the_method_does_not_use():
+    register(Method("still", lambda window, _: scene_flow_of_points(np.nan * window.source.points)))
+    parameters = Parameters(method="still")
+    pair = Estimates().estimated(fake_opened(), 20, parameters)
+    assert note_on(pair, parameters) == "Nothing moves."
 
 
 def test_without_truth_it_is_said_how_there_would_be_some():

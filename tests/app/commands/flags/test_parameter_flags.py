@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from app.analysis.parameter_files import to_text
+from app.command_line import main
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.errors import InputError
 from estimator import PARAMETER_INFO, ParameterError, Parameters
@@ -56,3 +57,16 @@ def test_flags_win_over_a_file(tmp_path: Path):
 def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path):
     with pytest.raises(InputError, match=r"^There is no file .*none\.json; check the spelling\.$"):
         parsed("--parameters", str(tmp_path / "none.json"))
+
+
+def test_a_number_of_another_kind_is_said_in_words(capsys: pytest.CaptureFixture[str]):
+    for flag, text, kind in (("--n", "2.5", "a whole number"), ("--delta", "far", "a number")):
+        with pytest.raises(SystemExit):
+            main(["evaluate", "x.mcap", flag, text])
+        assert f"argument {flag}: must be {kind}, got '{text}'" in capsys.readouterr().err
+
+
+def test_flags_are_written_in_full(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit):
+        main(["evaluate", "x.mcap", "--metho", "paper"])
+    assert "unrecognized arguments: --metho paper" in capsys.readouterr().err

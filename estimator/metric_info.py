@@ -1,0 +1,75 @@
+"""Declaration of metrics: title, unit, format, kind and definition beside each field."""
+
+import math
+import re
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+MetricKind = Literal["count", "share", "error", "signed"]
+"""A whole number; a fraction from 0 to 1; a number not below 0; a number of either sign."""
+
+
+@dataclass(frozen=True)
+class MetricInfo:
+    """Description of a metric, from which tables, files, plots and the page are made.
+
+    Attributes:
+        title: its name.
+        short: abbreviated name.
+        unit: "" for a plain number.
+        form: format of its values.
+        kind: range of its values.
+        definition: in words; e and r are those of `ERROR_SYMBOLS`.
+        source: publication that defines it.
+        plotted: whether the page plots it for every pair.
+    """
+
+    title: str
+    short: str
+    unit: str
+    form: str
+    kind: MetricKind
+    definition: str
+    source: str
+    plotted: bool = False
+
+    @property
+    def heading(self) -> str:
+        """Its title with its unit."""
+        return f"{self.title} {self.unit}".strip()
+
+    @property
+    def described(self) -> str:
+        """Its title and definition, as a sentence without the full stop."""
+        return f"{self.title[:1].upper()}{self.title[1:]}: {self.definition}"
+
+    @property
+    def spec(self) -> str:
+        """Format specification of its values, with a sign where it is signed."""
+        return f"+{self.form}" if self.kind == "signed" else self.form
+
+    def text(self, value: float | None) -> str:
+        """Format a value, – where it is undefined."""
+        return "–" if value is None or math.isnan(value) else format(value, self.spec)
+
+
+def metric(
+    title: str,
+    definition: str,
+    source: str = "",
+    *,
+    kind: MetricKind = "share",
+    short: str = "",
+    unit: str = "",
+    form: str = ".3f",
+    plotted: bool = False,
+) -> Any:  # noqa: ANN401 (a dataclass field)
+    """Declare a field of `Metrics`; arguments as in `MetricInfo`, `short` by default the title.
+
+    Raises:
+        ValueError: the format is none of a whole number or of decimals.
+    """
+    if not re.fullmatch(r"d|\.\d+f", form):
+        raise ValueError(f"{title}: a format is written d or .3f, and not {form!r}.")
+    info = MetricInfo(title, short or title, unit, form, kind, definition, source, plotted)
+    return field(metadata={"metric": info})
