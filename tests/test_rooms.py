@@ -148,6 +148,18 @@ def test_only_the_app_imports_the_viewer():
             assert "viser" not in {n.partition(".")[0] for n in names}, name
 
 
+def test_state_analysis_study_and_commands_import_no_viewer():
+    # The workbench holds the client, to make the scene that it draws.
+    importing = {
+        name
+        for name, path in MODULES.items()
+        if room_of(name) in {"app.analysis", "app.session", "app.study", "app.commands"}
+        and "viser"
+        in {n.partition(".")[0] for n in imported_names(ast.parse(path.read_text("utf-8")))}
+    }
+    assert importing == {"app.session.workbench"}
+
+
 @pytest.mark.parametrize(
     "line",
     [

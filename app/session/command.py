@@ -9,8 +9,8 @@ from app.session.workbench import Workbench
 class Command(Protocol):
     """Frozen description of a change to a session's state; its class is its kind.
 
-    It never touches a widget, the page or the client: the page shows the next snapshot, and
-    one-time messages to the browser go into the workbench's outbox.
+    It never touches a widget: panels show the next snapshot. Drawings and the camera are reached
+    through the workbench's scene, one-time messages to the browser go into its outbox.
     """
 
     def merged_with(self, earlier: Self) -> Self:

@@ -35,7 +35,7 @@ def export(capfd: pytest.CaptureFixture[str]) -> Export:
     def run(*arguments: object) -> str:
         # In a thread of its own: of Playwright, which it starts, there is one in a thread.
         with ThreadPoolExecutor(1) as thread:
-            code = thread.submit(main, ["export", *map(str, arguments)]).result(timeout=60)
+            code = thread.submit(main, ["export", *map(str, arguments)]).result()
         said = capfd.readouterr()
         assert (code, said.err) == (0, "")
         return said.out
