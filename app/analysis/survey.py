@@ -41,7 +41,7 @@ class Survey:
         self.metrics: dict[str, NDArray[np.float64]] = {
             name: np.full(size, np.nan)
             for name, info in METRIC_INFO.items()
-            if info.kind != "count"
+            if info.plotted or info.kind != "count"
         }
         self._order = coarse_to_fine(size)
         self._at = 0

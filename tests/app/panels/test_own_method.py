@@ -5,11 +5,12 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.panels.differences import changes
 from app.panels.explain import ExplainPanel
+from app.panels.parameter_controls import label_of
 from app.panels.parameters import ParametersPanel
 from app.panels.status import StatusPanel
 from app.session.commands import ChangeParameters, ResetParameters
 from app.session.tuning import Tuning
-from estimator import Parameters, changed, register
+from estimator import PARAMETER_INFO, Parameters, changed, register
 from recordings import open_recording, sample_paths
 from tests.app.fake_recordings import fake_opened
 from tests.app.fake_session import context, snapshot, status
@@ -41,7 +42,8 @@ def test_controls_are_those_of_the_method_that_is_chosen(client, own):
     panel.announce(status(parameters_revision=2))
     assert visible(client, "γ")
     assert not visible(client, "v_0")
-    assert client.control("Reset").options == ("n", "γ", "δ", "N_min", "All")
+    sliders = [label_of(name, info) for name, info in PARAMETER_INFO.items() if info.slider]
+    assert client.control("Reset").options == (*sliders, "All")
 
 
 def test_a_control_of_its_own_changes_its_parameter(client, own):
