@@ -61,15 +61,18 @@ def metric(
     kind: MetricKind = "share",
     short: str = "",
     unit: str = "",
-    form: str = ".3f",
+    form: str = "",
     plotted: bool = False,
 ) -> Any:  # noqa: ANN401 (a dataclass field)
-    """Declare a field of `Metrics`; arguments as in `MetricInfo`, `short` by default the title.
+    """Declare a field of `Metrics`; arguments as in `MetricInfo`.
+
+    By default `short` is the title, and `form` has no decimals for a count, else three.
 
     Raises:
-        ValueError: the format is none of a whole number or of decimals.
+        ValueError: the format is no number of decimals.
     """
-    if not re.fullmatch(r"d|\.\d+f", form):
-        raise ValueError(f"{title}: a format is written d or .3f, and not {form!r}.")
+    form = form or (".0f" if kind == "count" else ".3f")
+    if not re.fullmatch(r"\.\d+f", form):
+        raise ValueError(f"{title}: a format is written .3f, and not {form!r}.")
     info = MetricInfo(title, short or title, unit, form, kind, definition, source, plotted)
     return field(metadata={"metric": info})

@@ -57,10 +57,9 @@ class Metrics:
         "pairs",
         "pairs at both frames of which the object moves, also those without any flow",
         kind="count",
-        form="d",
     )
     points_with_flow: int = metric(
-        "points with flow", "source points with a flow, in all these pairs", kind="count", form="d"
+        "points with flow", "source points with a flow, in all these pairs", kind="count"
     )
     angle_deg: float = metric(
         "angle deviation",
