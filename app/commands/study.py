@@ -92,16 +92,16 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
-    with _stopped_like_by_ctrl_c():
+    with _sigterm_as_ctrl_c():
         return _run(options)
 
 
 @contextmanager
-def _stopped_like_by_ctrl_c() -> Iterator[None]:
+def _sigterm_as_ctrl_c() -> Iterator[None]:
     """Handle SIGTERM like Ctrl-C: stop workers and remove temporary files."""
 
     def stop(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once: clearing away is under way
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second one must not interrupt the cleanup
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGTERM, stop)
@@ -198,7 +198,7 @@ def _execute(
         running.close()
         progress.close()
         for said in unkept:
-            print(f"Not kept for another time: {printable(said)}", file=sys.stderr)
+            print(f"Result not stored for later runs: {printable(said)}", file=sys.stderr)
     return failures
 
 

@@ -49,7 +49,7 @@ class ParametersPanel(Panel):
         self._infos = {"method": PARAMETER_INFO["method"], **_all_infos()}
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()  # parameters whose controls hold a refused value
-        self._put_back: set[str] = set()
+        self._clamped: set[str] = set()
         self._readable_until = 0.0
         self._revision = 0
         self._method: str | None = None
@@ -114,7 +114,7 @@ class ParametersPanel(Panel):
                 # Typed or loaded values may exceed the slider's range.
                 control.max = max(control.max, values[name])
                 control.min = min(control.min, values[name])
-        refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
+        refused = {name for name, refusal in status.refusals.items() if not refusal.clamped}
         anew = status.parameters_revision != self._revision
         for name in self._controls if anew else self._refused - refused:
             show_value(self._controls[name], shown_value(values[name]))
@@ -137,12 +137,12 @@ class ParametersPanel(Panel):
         self._reset.options = tuple(self._resets)
 
     def _show_refusal(self, refusals: Mapping[str, Refusal]) -> None:
-        put_back = {name for name, refusal in refusals.items() if refusal.put_back}
-        if put_back - self._put_back:
+        clamped = {name for name, refusal in refusals.items() if refusal.clamped}
+        if clamped - self._clamped:
             self._readable_until = time.monotonic() + _READING
-        self._put_back = put_back
-        reading = bool(put_back) and time.monotonic() < self._readable_until
-        self._refusal.visible = len(put_back) < len(refusals) or reading
+        self._clamped = clamped
+        reading = bool(clamped) and time.monotonic() < self._readable_until
+        self._refusal.visible = len(clamped) < len(refusals) or reading
         if refusals:
             *_, last = refusals.values()
             self._refusal.content = (

@@ -44,11 +44,13 @@ class OpenParameters(LatestWins):
     def apply(self, workbench: Workbench) -> None:
         """Load them; InputError if the file is invalid."""
         if len(self.content) > _LARGEST:
-            raise InputError(f"{self.name} is too large for a file of parameters.")
+            raise InputError(f"{self.name} is too large for a parameter file.")
         try:
             text = self.content.decode()
         except UnicodeDecodeError as error:
-            raise InputError(f"{self.name} is no text, and so no file of parameters.") from error
+            raise InputError(
+                f"{self.name} is not a text file, so it cannot be a parameter file."
+            ) from error
         workbench.tuning.set(from_text(text, self.name))
 
 

@@ -68,7 +68,9 @@ def test_files_that_cannot_be_read_are_one_sentence(tmp_path: Path):
     with pytest.raises(InputError, match=r"cannot be read as parameters \(Is a directory\)\.$"):
         load(tmp_path)
     (tmp_path / "bytes").write_bytes(b"\xff\xfe")
-    with pytest.raises(InputError, match=r"bytes is no text, and so no file of parameters\.$"):
+    with pytest.raises(
+        InputError, match=r"bytes is not a text file, so it cannot be a parameter file\.$"
+    ):
         load(tmp_path / "bytes")
 
 
