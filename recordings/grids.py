@@ -19,7 +19,7 @@ def is_grid(rows: int, columns: int) -> bool:
     return _LEAST <= rows <= _MOST and _LEAST <= columns <= _MOST
 
 
-def shown(grid: Grid) -> str:
+def size_text(grid: Grid) -> str:
     """Text of a size, columns first."""
     return f"{grid[1]} x {grid[0]}"
 

@@ -16,6 +16,7 @@ from app.panels.parameter_controls import (
     label_of,
     shown_value,
 )
+from app.panels.triggers import post_on
 from app.session.command import Command
 from app.session.commands import ChangeParameters, ResetParameters
 from app.session.snapshot import Snapshot, Status
@@ -86,14 +87,11 @@ class ParametersPanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(ResetParameters(self._resets.get(self._reset.value, frozenset())))
 
-        @reset_folded.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(ResetParameters(folded))
-
         @history.on_click
         async def _(_: viser.GuiEvent) -> None:
             post(UndoParameters(1 if history.value == "Undo" else -1))
 
+        post_on(post, ResetParameters(folded), reset_folded)
         _add_commands(gui, frozenset(self._infos), post)
         self._show_controls(context.parameters.method)
 
@@ -181,16 +179,6 @@ def _add_commands(
         icon=viser.Icon.ARROW_FORWARD_UP,
     )
     reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
-
-    # Coroutines run at once, so that keys keep their order.
-    @undo.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(UndoParameters(1))
-
-    @redo.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(UndoParameters(-1))
-
-    @reset.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(ResetParameters(names))
+    post_on(post, UndoParameters(1), undo)
+    post_on(post, UndoParameters(-1), redo)
+    post_on(post, ResetParameters(names), reset)

@@ -16,6 +16,7 @@ from app.exports.survey_csv import to_csv
 from app.panels.panel import Panel, PanelContext
 from app.panels.plot_list import PLOTS, PlotSpec, summary
 from app.panels.time_field import TimeField
+from app.panels.triggers import post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download
 from app.session.snapshot import Snapshot
@@ -63,16 +64,8 @@ class PlotsPanel(Panel):
             self._time = TimeField(context)
             save = gui.add_button("Save as CSV", icon=viser.Icon.DOWNLOAD, color="gray")
 
-        command = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
-
-        # Coroutines run at once, before the control's value can change again.
-        @save.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            context.post(SavePlots())
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            context.post(SavePlots())
+        entry = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
+        post_on(context.post, SavePlots(), save, entry)
 
     def open(self, opened: Opened) -> None:
         """Set axes, and select plots by whether there is truth."""

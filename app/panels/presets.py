@@ -11,6 +11,7 @@ from app.analysis.parameter_files import from_text, to_text
 from app.browser.controls import show_value
 from app.errors import InputError
 from app.panels.panel import Panel, PanelContext
+from app.panels.triggers import post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download, Notice
 from app.session.presets import Presets, PresetUse, preset_folder
@@ -124,15 +125,8 @@ class PresetsPanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(UsePreset("save", self._name.value.strip()))
 
-        @save.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(SaveParameters())
-
-        command = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(SaveParameters())
+        entry = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
+        post_on(post, SaveParameters(), save, entry)
 
         @self._upload.on_upload
         async def _(_: viser.GuiEvent) -> None:

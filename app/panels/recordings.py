@@ -54,9 +54,7 @@ def describe(opened: Opened) -> list[str]:
     lines: list[str] = []
     provenance = recording.provenance
     if provenance and recording.simulated:
-        lines.append(
-            f"Simulated: {provenance.scenario}, {provenance.speed:g} m/s, trial {provenance.trial}"
-        )
+        lines.append(f"Simulated: {provenance.experiment}")
     seconds = recording.stamps[-1] - recording.stamps[0] if len(recording) else 0.0
     count = len(recording.sensors)
     sensors = "1 sensor" if count == 1 else f"{count} sensors"

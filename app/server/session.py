@@ -165,7 +165,7 @@ class Session:
     def _apply(self, command: Command, workbench: Workbench, page: Page) -> None:
         command.apply(workbench)
         # Later commands in the queue refer to the recording that this one opens.
-        while workbench.opening.label is not None:
+        while workbench.open_requests.label is not None:
             page.announce(workbench.status())
             workbench.open_next()
 

@@ -22,7 +22,7 @@ class OpenRecording(LatestWins):
         """Request it, unless it is open already."""
         opened = workbench.opened
         if opened is None or opened.entry.label != self.label:
-            workbench.opening.request([self.label])
+            workbench.open_requests.request([self.label])
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class OpenFirst(LatestWins):
 
     def apply(self, workbench: Workbench) -> None:
         """Request them."""
-        workbench.opening.request(self.labels)
+        workbench.open_requests.request(self.labels)
 
 
 @dataclass(frozen=True)
