@@ -1,4 +1,4 @@
-"""Drawing of the robot: one frame per link, with the link's meshes below it."""
+"""Drawing of the robot: one frame per link, with the link's meshes as its children."""
 
 from collections.abc import Mapping
 

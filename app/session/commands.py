@@ -1,4 +1,4 @@
-"""Commands posted by several panels or by the session; panels define their own beside them."""
+"""Commands posted by several panels or by the session; a panel's own are in its module."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class OpenFirst(LatestWins):
 
 @dataclass(frozen=True)
 class Restore(LatestWins):
-    """Restore a saved session, once its recording was opened."""
+    """Restore a saved session after its recording has been opened."""
 
     saved: SavedSession
 
@@ -118,7 +118,7 @@ class ChangeParameters:
 
 @dataclass(frozen=True)
 class ResetParameters:
-    """Reset the parameters of these names to the values that the app was started with."""
+    """Reset these parameters to the values that the app was started with."""
 
     names: frozenset[str]
 
