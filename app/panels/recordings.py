@@ -66,6 +66,6 @@ def describe(opened: Opened) -> list[str]:
 
 def _lines(said: Sequence[str]) -> str:
     lines = "".join(f"<div>{escape(text)}</div>" for text in said)
-    # As high with one line as with three: what a person is about to click on stays in place.
+    # As high with one line as with three, so that the controls below stay in place.
     style = f"font-size: 0.75rem; line-height: 1.2rem; min-height: {1.2 * _LINES}rem"
     return f'<div style="{style}; padding: 0 1em; opacity: 0.75">{lines}</div>'

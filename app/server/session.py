@@ -98,7 +98,7 @@ class Session:
                     f"The recording {saved.label} is not among those that are listed here."
                 )
                 saved = None  # its parameters were chosen for that recording
-            # Before there is a page, so that what a person does there comes after it.
+            # Before there is a page, so that the user's commands come after it.
             self._queue.post(OpenFirst((*([saved.label] if saved else []), *labels)))
             if saved:
                 self._queue.post(Restore(saved))
