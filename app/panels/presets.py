@@ -112,7 +112,7 @@ class PresetsPanel(Panel):
                 icon=Icon.UPLOAD,
                 color="gray",
                 mime_type="application/json",
-                hint="A file of parameters, as Save as a file makes it.",
+                hint="A parameter file, as Save as a file makes it.",
             )
 
         # Coroutines run at once, before the control's value can change again.
