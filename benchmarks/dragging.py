@@ -1,4 +1,4 @@
-"""Sliders that are dragged, seen from the wire: by one client, by five at once, and in a flood.
+"""Latency of a dragged slider at the WebSocket: one client, five at once, and a flood of events.
 
 Run it from the project's folder: `.venv/bin/python -m benchmarks.dragging`.
 """
@@ -13,8 +13,8 @@ from benchmarks.serving import Served, machine, serving, wait_until
 from tests.app.wire_client import WireClient
 
 _VALUES = (4, 5, 6, 7, 8, 9, 10, 11, 12)
-_PAUSE = 0.3  # seconds between two events of a person who looks at each picture
-_EVERY = 0.05  # seconds between two events of a browser whose slider is dragged
+_PAUSE = 0.3  # seconds between single events
+_EVERY = 0.05  # seconds between the events of a dragged slider
 _DRAGGED = 5.0  # seconds
 _FIRST, _APART = 13, 3  # frames
 _RATE = 15.0  # frames per second of the samples
@@ -23,7 +23,7 @@ _INTERVAL = re.compile(r">Interval</span><span[^>]*>([0-9.]+) s<")
 
 
 class _Hand:
-    """A client whose slider is moved, and what came of it.
+    """Client that moves a slider and records the answers.
 
     Attributes:
         latencies: milliseconds from an event to its arrows.
@@ -65,7 +65,7 @@ class _Hand:
 
 def _statistics(latencies: list[float]) -> str:
     if len(latencies) < 2:
-        return "nothing came"
+        return "no answers"
     return (
         f"median {statistics.median(latencies):5.0f} ms, 90 % below "
         f"{statistics.quantiles(latencies, n=10)[-1]:5.0f} ms, largest {max(latencies):5.0f} ms"
@@ -73,7 +73,7 @@ def _statistics(latencies: list[float]) -> str:
 
 
 def one_by_one(served: Served) -> str:
-    """From an event to its arrows, one event at a time, on values nothing was computed for."""
+    """Time from an event to its arrows, one event at a time, without cached results."""
     hand = _Hand(served, None)
     found: list[float] = []
     for _ in range(3):  # frames
@@ -109,7 +109,7 @@ def flood(served: Served) -> str:
 
 
 def together(served: Served, count: int) -> list[str]:
-    """Picture rate and latency of each client while all drag n, each over frames of its own."""
+    """Picture rate and latency of each client while all drag n, on different frames."""
     hands = [_Hand(served, _FIRST + _APART * number) for number in range(count)]
     for hand in hands:
         hand.start()
@@ -138,7 +138,7 @@ def together(served: Served, count: int) -> list[str]:
 
 
 def main() -> None:
-    """Print all of it, each part with a server of its own that knows nothing yet."""
+    """Print all results, each measured on a fresh server."""
     with serving() as served:
         print(f"One by one ({machine()}): {one_by_one(served)}", flush=True)
     with serving() as served:

@@ -14,11 +14,11 @@ from benchmarks.serving import Served, machine, serving, wait_until, write_long_
 from tests.app.wire_client import WireClient
 
 _FRAMES = 10_000
-_RELEASED = 4.0  # seconds after the last client has left in which memory is given back
+_RELEASED = 4.0  # seconds until the memory of a closed session is freed
 
 
 class _Count:
-    """Frames whose cloud has come."""
+    """Counter of the frames whose cloud a client has received."""
 
     def __init__(self) -> None:
         self.frames = 0
@@ -47,12 +47,12 @@ def scrub(served: Served, frames: int, max_range: float) -> None:
             if (k + 1) % (frames // 10) == 0:
                 _say(f"{k + 1} frames scrubbed", served)
     time.sleep(_RELEASED)
-    _say("nobody there", served)
+    _say("no client any more", served)
 
 
 def come_and_go(served: Served, clients: int) -> None:
     """Let clients come, see a frame, play and go, five at a time."""
-    _say("nobody was there", served)
+    _say("no client yet", served)
     at_once = 5
     for number in range(0, clients, at_once):
         counts = [_Count() for _ in range(at_once)]
@@ -62,7 +62,7 @@ def come_and_go(served: Served, clients: int) -> None:
             client.trigger("Play or pause")
         time.sleep(0.5)
         if number == 0:
-            _say(f"{at_once} clients there", served)
+            _say(f"{at_once} clients connected", served)
         for client in here:
             client.close()
         if (number + at_once) % (clients // 10) == 0:

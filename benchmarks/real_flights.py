@@ -1,7 +1,7 @@
-"""Parameters for real flights at a panel, chosen on the recordings that are given.
+"""Search for parameters that suit real flights at a panel, on given recordings.
 
 Run it from the project's folder: `.venv/bin/python -m benchmarks.real_flights FILE ...`;
-`docs/real_flights.md` says what it is for, and what came of it.
+`docs/real_flights.md` has purpose and results.
 """
 
 import argparse
@@ -38,7 +38,7 @@ GRID: dict[str, tuple[Any, ...]] = {
     "gamma": (0.5, 0.6, 0.7, 0.8, 0.9),
 }
 STEPS = (
-    ("n", "delta"),  # a longer way wants a higher gate
+    ("n", "delta"),  # a longer interval needs a larger threshold
     ("n_min", "min_cluster_size"),
     ("allow_single_cluster", "max_correspondence_distance"),
     ("gamma",),
@@ -54,27 +54,27 @@ class Flights:
             for p in paths
         ]
         self._known: dict[Parameters, tuple[float, float]] = {}
-        self._way: dict[tuple[Path, int], float] = {}
+        self._zero_flow_epe: dict[tuple[Path, int], float] = {}
 
     def score(self, parameters: Parameters) -> tuple[float, float]:
-        """Share of the motion that is left, mean over flights, and false flow, the worst."""
+        """Motion left, mean over the flights, and the largest false flow of them."""
         if parameters not in self._known:
-            left = [self._left(sensor, parameters) for sensor, _ in self._pairs]
+            left = [self._motion_left(sensor, parameters) for sensor, _ in self._pairs]
             false = [_metrics(world, parameters).false_flow for _, world in self._pairs]
             self._known[parameters] = sum(left) / len(left), max(false)
         return self._known[parameters]
 
-    def _left(self, recording: Recording, parameters: Parameters) -> float:
-        """EPE3D over that of an estimate that finds nothing: 1 says nothing, 0 is perfect."""
+    def _motion_left(self, recording: Recording, parameters: Parameters) -> float:
+        """Motion left: EPE3D relative to that of zero flow, 0 is perfect."""
         key = recording.path, parameters.n
-        if key not in self._way:
+        if key not in self._zero_flow_epe:
             nothing = replace(parameters, method="paper", delta=10.0)
-            self._way[key] = _metrics(recording, nothing).epe3d
-        return _metrics(recording, parameters).epe3d / self._way[key]
+            self._zero_flow_epe[key] = _metrics(recording, nothing).epe3d
+        return _metrics(recording, parameters).epe3d / self._zero_flow_epe[key]
 
 
 def search(flights: Flights) -> Parameters:
-    """Parameters that go together over all their values, in turns, until a turn changes nothing."""
+    """Search each group of parameters exhaustively, in turns, until a turn changes nothing."""
     best = START
     print(_row("start", flights.score(best), best), flush=True)
     for turn in count(1):
@@ -90,8 +90,8 @@ def search(flights: Flights) -> Parameters:
 
 
 def _rank(score: tuple[float, float]) -> tuple[float, float]:
-    left, false = score
-    return max(false - LIMIT, 0.0), left
+    motion_left, false = score
+    return max(false - LIMIT, 0.0), motion_left
 
 
 def _metrics(recording: Recording, parameters: Parameters) -> Metrics:
@@ -103,13 +103,13 @@ def _metrics(recording: Recording, parameters: Parameters) -> Metrics:
     return metrics
 
 
-def _row(what: str, score: tuple[float, float], p: Parameters) -> str:
+def _row(label: str, score: tuple[float, float], p: Parameters) -> str:
     values = " ".join(f"{getattr(p, name)!s:>5}" for name in GRID)
-    return f"{what:52} left {score[0]:.4f}  false {score[1]:.4f}  {values}"
+    return f"{label:52} left {score[0]:.4f}  false {score[1]:.4f}  {values}"
 
 
 def main() -> None:
-    """Search, and print what was found as a file of parameters."""
+    """Search, and print the best parameters as a parameter file."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a recording")
     with ExitStack() as stack:

@@ -79,11 +79,11 @@ def write_long_recording(path: Path, frames: int) -> None:
 
 
 def wait_until(condition: Callable[[], Any], seconds: float = 60.0) -> None:
-    """Wait for something, looking often."""
+    """Poll a condition until it is true."""
     end = time.perf_counter() + seconds
     while not condition():
         if time.perf_counter() > end:
-            raise TimeoutError("It did not happen in time.")
+            raise TimeoutError(f"The condition is still false after {seconds:g} s.")
         time.sleep(5e-4)
 
 

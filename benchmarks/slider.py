@@ -35,7 +35,7 @@ def _has_flow(client: Any) -> bool:  # noqa: ANN401 (stands in for a client of v
 
 
 def measure(*, plots: bool) -> list[float]:
-    """Milliseconds of each event, all on values that nothing was computed for."""
+    """Milliseconds of each event, without cached results."""
     shared = Shared(Library(sample_paths(), open_recording), Estimates(), Reloads(), Parameters())
     if not plots:
         setattr(shared.surveys, "request", lambda *_: None)  # noqa: B010 (the type checker minds)

@@ -10,8 +10,8 @@ from estimator.window import Window
 def clusters_of(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
     """Cluster the merged clouds with HDBSCAN; the result is cached per setting.
 
-    The target's points come first in the merged cloud: ties in HDBSCAN depend on the order, so
-    the order is fixed. Points that are not finite belong to no cluster. With fewer points than
+    The target's points come first in the merged cloud: HDBSCAN breaks ties by the order of the
+    points, so it is fixed. Points that are not finite belong to no cluster. With fewer points than
     HDBSCAN needs there is no cluster.
     """
     settings = (

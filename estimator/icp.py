@@ -29,7 +29,7 @@ class Registration:
     inlier_target: Indices
 
 
-def register(
+def align(
     source: NDArray[np.float64], target: NDArray[np.float64], max_correspondence_distance: float
 ) -> Registration:
     """Find the rigid motion that takes `source` onto `target`, starting from the identity.

@@ -12,8 +12,8 @@ and do not suit this scale: at the paper's 0.15 to 0.30 m/s a point moves 0.08 t
 frames at 15 Hz. AccS accepts an error of 0.05 m, a third to two thirds of that. AccR accepts
 0.10 m, which at 0.15 m/s is satisfied without any flow. Every point at rest is a hit in both.
 Outliers reduces to r > 0.10 and counts every point at rest that has a flow. Argoverse 2 calls
-motion below 0.5 m/s static, and that is all of the paper's. Use these metrics to compare methods on
-the same recordings, together with coverage and precision.
+motion below 0.5 m/s static; all motions of the paper are slower. Use these metrics to compare
+methods on the same recordings, together with coverage and precision.
 """
 
 import math
@@ -109,8 +109,7 @@ class Metrics:
     outliers: float = metric(
         "outliers",
         f"share of points with e > {OUTLYING:.2f} m or r > {RELAXED:.2f}",
-        "HPLFlowNet; ICP-Flow's ROutliers, which want both, and the latter above 0.30, are not the "
-        "same",
+        "HPLFlowNet; ICP-Flow's ROutliers is another: it requires both, with r > 0.30",
     )
     dynamic_iou: float = metric(
         "dynamic IoU",

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from estimator.flow import IcpRound, Indices
-from estimator.icp import register
+from estimator.icp import align
 from estimator.parameters import PARAMETER_INFO, Parameters
 from estimator.window import Window
 
@@ -50,7 +50,7 @@ def icp_round(
 
 def _round(source: Indices, target: Indices, window: Window, reach: float) -> IcpRound:
     points = window.source.points[source]
-    icp = register(points, window.target.points[target], reach)
+    icp = align(points, window.target.points[target], reach)
     displacement = _displacement(points, icp.transformation)
     return IcpRound(
         source_size=len(source),

@@ -9,7 +9,7 @@ import numpy as np
 
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError
-from recordings.grids import SIZES, Grid, is_grid, shown
+from recordings.grids import SIZES, Grid, is_grid, size_text
 from recordings.mcap_contents import ChannelInfo
 from recordings.mcap_file import McapFile
 from recordings.range_formats import range_format
@@ -165,7 +165,7 @@ def _image(topic: str, image: Any) -> Use | str:  # noqa: ANN401 (a decoded mess
 
 def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
     if not is_grid(info.height, info.width):
-        return f"it is for {shown((info.height, info.width))}, and a sensor has {SIZES}"
+        return f"it is for {size_text((info.height, info.width))}, and a sensor has {SIZES}"
     fx, fy, cx, cy = camera_matrix(info)
     if not all(math.isfinite(f) and f > 0 for f in (fx, fy)):
         return f"its focal lengths are {fx:g} and {fy:g}"

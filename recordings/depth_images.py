@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from recordings.errors import RecordingError
-from recordings.grids import SIZES, Grid, is_grid, shown
+from recordings.grids import SIZES, Grid, is_grid, size_text
 from recordings.range_format import RangeFormat
 
 _ENCODINGS = ("16UC1", "mono16", "32FC1")
@@ -15,7 +15,7 @@ _ENCODINGS = ("16UC1", "mono16", "32FC1")
 def depth_grid(image: Any) -> Grid | str:  # noqa: ANN401 (a decoded message)
     """Rows and columns of a depth image, or the reason why it is not one."""
     if not is_grid(image.height, image.width):
-        return f"it is {shown((image.height, image.width))}, and a sensor has {SIZES}"
+        return f"it is {size_text((image.height, image.width))}, and a sensor has {SIZES}"
     if image.encoding not in _ENCODINGS:
         return f"its encoding {image.encoding!r} is no distance"
     return image.height, image.width

@@ -80,3 +80,8 @@ class Provenance:
     command: str
     imperfections: tuple[str, ...] = ()
     rig: str = ""
+
+    @property
+    def experiment(self) -> str:
+        """Text of scenario, speed and trial, such as "towards, 0.2 m/s, trial 1"."""
+        return f"{self.scenario}, {self.speed:g} m/s, trial {self.trial}"

@@ -1,4 +1,4 @@
-"""Grids of zones: valid sizes, and padding of several sizes into one array."""
+"""Grids of zones: valid sizes, and padding to a common size."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_LEAST, _MOST = 2, 64
-SIZES = f"{_LEAST} x {_LEAST} to {_MOST} x {_MOST} zones"
+_MIN_SIZE, _MAX_SIZE = 2, 64
+SIZES = f"{_MIN_SIZE} x {_MIN_SIZE} to {_MAX_SIZE} x {_MAX_SIZE} zones"
 """Valid sizes of a sensor, for messages."""
 
 Grid = tuple[int, int]
@@ -16,11 +16,11 @@ Grid = tuple[int, int]
 
 def is_grid(rows: int, columns: int) -> bool:
     """Whether an image of this size can be of a ToF sensor, a zone per pixel."""
-    return _LEAST <= rows <= _MOST and _LEAST <= columns <= _MOST
+    return _MIN_SIZE <= rows <= _MAX_SIZE and _MIN_SIZE <= columns <= _MAX_SIZE
 
 
-def shown(grid: Grid) -> str:
-    """Text of a size, columns first."""
+def size_text(grid: Grid) -> str:
+    """Size as text, columns first."""
     return f"{grid[1]} x {grid[0]}"
 
 

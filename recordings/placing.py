@@ -91,7 +91,7 @@ def unplaced_sensors(
         )
     warnings: list[str] = []
     if unplaced:
-        warnings.append(f"Nothing places {few(unplaced)} in {fixed}; they show nothing.")
+        warnings.append(f"Nothing places {few(unplaced)} in {fixed}; their readings are left out.")
     warnings += _on_one_spot(found, tree, fixed, by_rig)
     if rig is None:
         return warnings

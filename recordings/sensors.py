@@ -11,7 +11,7 @@ from recordings.contents import Topic, Use, camera_matrix, parent
 from recordings.decoding import Decoder
 from recordings.depth_images import DEPTH_IMAGE, pixels
 from recordings.errors import RecordingError
-from recordings.grids import Grid, shown
+from recordings.grids import Grid, size_text
 from recordings.range_format import RangeFormat
 from recordings.range_formats import range_format
 from recordings.rig_record import depth_topic, topic_part
@@ -102,8 +102,9 @@ def unfit_intrinsics(
         infos = _infos(topic, topics)
         if infos and all(info.grid != topic.grid for info in infos):
             warnings.append(
-                f"{infos[0].name} is for images of {shown(_grid(infos[0]))} zones and those of "
-                f"{topic.name} are {shown(_grid(topic))}; a field of view of 45 degrees is taken."
+                f"{infos[0].name} is for images of {size_text(_grid(infos[0]))} zones and those of "
+                f"{topic.name} are {size_text(_grid(topic))}; a field of view of 45 degrees is "
+                "assumed."
             )
     return warnings
 
@@ -143,8 +144,8 @@ def readings(
     grid, found = sensor.images or sensor.grid, form.grid(message)
     if found != grid:
         frame = message.header.frame_id if hasattr(message, "header") else sensor.name
-        held = found if isinstance(found, str) else f"it is {shown(found)}"
-        raise RecordingError(f"A message of {frame}: {held}, and not {shown(grid)} distances.")
+        held = found if isinstance(found, str) else f"it is {size_text(found)}"
+        raise RecordingError(f"A message of {frame}: {held}, and not {size_text(grid)} distances.")
     values = form.ranges(message)
     with np.errstate(invalid="ignore"):
         valid = np.isfinite(values) & (values > 0)
@@ -170,7 +171,7 @@ def _status_pixels(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  #
     if (status.height, status.width) != grid:
         raise RecordingError(
             f"A status image of {status.header.frame_id} is {status.width} x {status.height}, and "
-            f"not {shown(grid)}."
+            f"not {size_text(grid)}."
         )
     return pixels(status, np.dtype(np.uint8))
 

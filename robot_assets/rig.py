@@ -58,7 +58,7 @@ class Rig:
             if sensor.link not in links:
                 raise RigError(
                     f"The rig '{self.name}' fixes sensor {sensor.name} to link {sensor.link}, "
-                    f"which the robot {robot} has not; it has {', '.join(links)}."
+                    f"which the robot {robot} does not have; it has {', '.join(links)}."
                 )
 
 

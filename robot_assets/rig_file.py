@@ -1,4 +1,4 @@
-"""Validated models of a rig file, for reading and writing."""
+"""Schema of a rig file, for reading and writing."""
 
 from typing import Annotated, Literal, LiteralString, Self
 
@@ -18,40 +18,40 @@ from pydantic_core import PydanticCustomError, core_schema
 from robot_assets.rig_names import name_conflict
 from robot_assets.sensor_model import unit
 
-MOST_SENSORS = 1000
-LONGEST_RANGE = 100.0
+MAX_SENSORS = 1000
+MAX_RANGE = 100.0
 """Metres, ten times the range of any such sensor."""
-_LARGEST = 1e6
-"""No measure of a rig is this large; squares of much larger numbers overflow."""
-EXPECTED, WHOLE = "expected", "whole"
-"""Types of our own errors: of a key's value, and of a rig as a whole."""
+_MAX_COORDINATE = 1e6
+"""Far above any coordinate of a rig; squares of much larger numbers overflow."""
+WRONG_VALUE, WRONG_RIG = "wrong_value", "wrong_rig"
+"""Types of our own errors: of a key's value, and of the rig as a whole."""
 
 
 def _must_be(expected: str) -> GetPydanticSchema:
-    """Replace all errors of a value by one that says what is expected."""
+    """Replace all errors of a value by one that names what is expected."""
     return GetPydanticSchema(
         lambda source, handler: core_schema.custom_error_schema(
-            handler(source), EXPECTED, custom_error_message=f"must be {expected}"
+            handler(source), WRONG_VALUE, custom_error_message=f"must be {expected}"
         )
     )
 
 
-def _wrong(kind: LiteralString, said: str) -> PydanticCustomError:
-    # As a value, since names of a rig may contain the braces of a template.
-    return PydanticCustomError(kind, "{said}", {"said": said})
+def _error(kind: LiteralString, message: str) -> PydanticCustomError:
+    # The message is a value of the template: names of a rig may contain braces.
+    return PydanticCustomError(kind, "{message}", {"message": message})
 
 
 def _not_zero(vector: list[float]) -> list[float]:
     if np.linalg.norm(vector) < 1e-9:
-        raise _wrong(EXPECTED, "must be a direction, not zero")
+        raise _error(WRONG_VALUE, "must be a direction, not zero")
     return vector
 
 
-def _across(vector: list[float], axis: list[float] | None) -> list[float]:
+def _not_along(axis: list[float] | None, vector: list[float]) -> list[float]:
     if axis is not None:
         along = unit(np.array(axis))
         if np.linalg.norm(np.cross(along, vector)) < 1e-6 * np.linalg.norm(vector):
-            raise _wrong(EXPECTED, f"must be a direction that is not along {along.tolist()}")
+            raise _error(WRONG_VALUE, f"must be a direction that is not along {along.tolist()}")
     return vector
 
 
@@ -64,7 +64,7 @@ _Angles = Annotated[
     _must_be("a number from 1 to 170, or two of them"),
 ]
 _Vector = Annotated[
-    list[Annotated[float, Field(ge=-_LARGEST, le=_LARGEST)]],
+    list[Annotated[float, Field(ge=-_MAX_COORDINATE, le=_MAX_COORDINATE)]],
     Field(min_length=3, max_length=3),
     _must_be("three numbers"),
 ]
@@ -72,7 +72,7 @@ _Direction = Annotated[_Vector, AfterValidator(_not_zero)]
 
 
 class FileTable(BaseModel):
-    """Table of a rig file; unknown keys and values of another type are errors."""
+    """Table of a rig file; unknown keys and values of a wrong type are errors."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
 
@@ -85,12 +85,12 @@ class SensorModelTable(FileTable):
     columns: _Zones
     field_of_view_deg: _Angles
     min_range_m: Annotated[
-        float, Field(ge=0, le=LONGEST_RANGE), _must_be(f"a number from 0 to {LONGEST_RANGE:g}")
+        float, Field(ge=0, le=MAX_RANGE), _must_be(f"a number from 0 to {MAX_RANGE:g}")
     ]
     max_range_m: Annotated[
         float,
-        Field(ge=0.001, le=LONGEST_RANGE),
-        _must_be(f"a number from 0.001 to {LONGEST_RANGE:g}"),
+        Field(ge=0.001, le=MAX_RANGE),
+        _must_be(f"a number from 0.001 to {MAX_RANGE:g}"),
     ]
     distance: Annotated[Literal["perpendicular", "radial"], _must_be('"perpendicular" or "radial"')]
     reading_order: Annotated[
@@ -101,10 +101,10 @@ class SensorModelTable(FileTable):
 
     @field_validator("max_range_m")
     @classmethod
-    def _not_below_the_smallest(cls, value: float, info: ValidationInfo) -> float:
+    def _not_below_min_range(cls, value: float, info: ValidationInfo) -> float:
         low: float = info.data.get("min_range_m", 0.0)
         if value < low:
-            raise _wrong(EXPECTED, f"must be a number from {low:g} to {LONGEST_RANGE:g}")
+            raise _error(WRONG_VALUE, f"must be a number from {low:g} to {MAX_RANGE:g}")
         return value
 
 
@@ -114,7 +114,7 @@ class RingTable(FileTable):
     name: _Text
     link: _Text
     count: Annotated[
-        int, Field(ge=1, le=MOST_SENSORS), _must_be(f"a whole number from 1 to {MOST_SENSORS}")
+        int, Field(ge=1, le=MAX_SENSORS), _must_be(f"a whole number from 1 to {MAX_SENSORS}")
     ]
     radius_m: Annotated[float, Field(ge=0, le=10), _must_be("a number from 0 to 10")]
     centre_m: _Vector
@@ -124,7 +124,7 @@ class RingTable(FileTable):
     @field_validator("first_direction")
     @classmethod
     def _not_along_the_axis(cls, value: list[float], info: ValidationInfo) -> list[float]:
-        return _across(value, info.data.get("axis"))
+        return _not_along(info.data.get("axis"), value)
 
     @property
     def sensor_names(self) -> list[str]:
@@ -145,7 +145,7 @@ class SingleTable(FileTable):
     @field_validator("up")
     @classmethod
     def _not_along_forward(cls, value: list[float], info: ValidationInfo) -> list[float]:
-        return _across(value, info.data.get("forward"))
+        return _not_along(info.data.get("forward"), value)
 
 
 class RigFile(FileTable):
@@ -157,15 +157,15 @@ class RigFile(FileTable):
     sensors: list[SingleTable] = []
 
     @model_validator(mode="after")
-    def _sensors_can_be_told_apart(self) -> Self:
+    def _count_and_names_are_valid(self) -> Self:
         count = sum(ring.count for ring in self.rings) + len(self.sensors)
         if count == 0:
-            raise _wrong(
-                WHOLE, "there must be at least one of [[rings]] and [[sensors]], found none"
+            raise _error(
+                WRONG_RIG, "there must be at least one of [[rings]] and [[sensors]], found none"
             )
-        if count > MOST_SENSORS:
-            raise _wrong(WHOLE, f"there must be at most {MOST_SENSORS} sensors, found {count}")
+        if count > MAX_SENSORS:
+            raise _error(WRONG_RIG, f"there must be at most {MAX_SENSORS} sensors, found {count}")
         names = [name for ring in self.rings for name in ring.sensor_names]
         if conflict := name_conflict([*names, *(single.name for single in self.sensors)]):
-            raise _wrong(WHOLE, conflict)
+            raise _error(WRONG_RIG, conflict)
         return self

@@ -6,12 +6,12 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from robot_assets.rig_file import EXPECTED, WHOLE, RigFile
+from robot_assets.rig_file import WRONG_RIG, WRONG_VALUE, RigFile
 
-_MOST = 3
-"""Problems in one message; further ones show once these are fixed."""
-_LONGEST = 60
-"""Characters of a key, longer ones are cut."""
+_MAX_PROBLEMS = 3
+"""Problems listed in one message; further ones show once these are fixed."""
+_MAX_KEY = 60
+"""Characters of a key; longer ones are cut."""
 
 
 def problems(error: ValidationError) -> str:
@@ -22,16 +22,17 @@ def problems(error: ValidationError) -> str:
         table = each["loc"][:-1]
         if each["type"] != "extra_forbidden":
             found.append(each)
-        elif table not in with_unknown_keys:  # one per table, its message lists all known keys
+        elif table not in with_unknown_keys:  # one per table: its message lists all known keys
             with_unknown_keys.add(table)
             found.append(each)
-    said = "; ".join(map(_said, found[:_MOST]))
-    return f"{said}; and {len(found) - _MOST} more." if len(found) > _MOST else f"{said}."
+    listed = "; ".join(map(_problem, found[:_MAX_PROBLEMS]))
+    more = len(found) - _MAX_PROBLEMS
+    return f"{listed}; and {more} more." if more > 0 else f"{listed}."
 
 
-def _said(error: ErrorDetails) -> str:
+def _problem(error: ErrorDetails) -> str:
     where, kind = error["loc"], error["type"]
-    if kind == WHOLE:
+    if kind == WRONG_RIG:
         return error["msg"]
     name = _name(where)
     if kind == "missing":
@@ -39,7 +40,7 @@ def _said(error: ErrorDetails) -> str:
     if kind == "extra_forbidden":
         return f"{name} is not a known key; known are {', '.join(_keys(where[:-1]))}"
     got = f"got {_shown(error['input'])}"
-    if kind == EXPECTED:
+    if kind == WRONG_VALUE:
         return f"{name} {error['msg']}, {got}"
     if _is_array(where[0]):
         return f"{where[0]} must be tables, each headed [[{where[0]}]], {got}"
@@ -61,7 +62,7 @@ def _name(where: tuple[int | str, ...]) -> str:
             name += f"[{part}]"
         else:
             # A key may hold any characters.
-            plain = part if part.isprintable() and len(part) <= _LONGEST else reprlib.repr(part)
+            plain = part if part.isprintable() and len(part) <= _MAX_KEY else reprlib.repr(part)
             name += f".{plain}" if name else plain
     return name
 

@@ -119,7 +119,7 @@ def test_the_rooms_have_no_circle():
 
 
 def test_no_modules_import_each_other_in_a_circle():
-    # A package that gathers its own modules is not one of them: they may import it never.
+    # A package imports its own modules, so a module that imports its package closes a circle.
     try:
         TopologicalSorter(IMPORTS).prepare()
     except CycleError as error:

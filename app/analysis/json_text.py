@@ -1,4 +1,4 @@
-"""JSON from files, links and browsers, with one sentence for what is wrong with it."""
+"""Strict JSON from files, links and browsers; errors are one sentence."""
 
 import json
 import reprlib
@@ -13,11 +13,11 @@ _KINDS = {dict: "a table", list: "a list", str: "a text", bool: "true or false"}
 
 
 def from_json(text: str, where: str) -> Any:  # noqa: ANN401 (whatever JSON holds)
-    """Content of a text in which every key stands once and every number is one.
+    """Parse JSON without duplicate keys and without NaN or Infinity.
 
     Args:
         text: JSON.
-        where: a file's name, for the sentence.
+        where: a file's name, for error messages.
 
     Raises:
         InputError: the text is too long, not JSON or nested too deeply, or has a key twice, NaN,
@@ -34,7 +34,7 @@ def from_json(text: str, where: str) -> Any:  # noqa: ANN401 (whatever JSON hold
         return content
 
     def no_constant(name: str) -> None:
-        raise InputError(f"{where} holds {name}, which is no number of JSON; give a number.")
+        raise InputError(f"{where} holds {name}, which is not a JSON number; give a number.")
 
     def whole(digits: str) -> int:
         if len(digits) > _DIGITS:
@@ -46,16 +46,16 @@ def from_json(text: str, where: str) -> Any:  # noqa: ANN401 (whatever JSON hold
             text, object_pairs_hook=once_each, parse_constant=no_constant, parse_int=whole
         )
     except RecursionError as error:
-        raise InputError(f"{where} has lists or tables in each other, too many to read.") from error
+        raise InputError(f"{where} has too deeply nested lists or tables.") from error
     except ValueError as error:
         raise InputError(f"{where} is not JSON: {error}.") from error
 
 
 def check_size(size: int, where: str) -> None:
-    """Raise InputError for what is too large to be read."""
+    """Raise InputError where a text is too large to be read."""
     if size > LARGEST:
         raise InputError(
-            f"{where} has more than {LARGEST // 1_000_000} MB, too many to be read as JSON; check "
+            f"{where} has more than {LARGEST // 1_000_000} MB, too much to be read as JSON; check "
             "the name."
         )
 

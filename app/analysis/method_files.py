@@ -30,7 +30,7 @@ def load_method(text: str) -> str:
     Raises:
         InputError: the file or the name in it does not exist, or it cannot be registered.
     """
-    path, name = located(text)
+    path, name = split_method_file(text)
     key = f"{path}:{name}"
     if key not in _loaded:
         found = getattr(_module(path), name, None)
@@ -49,7 +49,7 @@ def method_files(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(text for text, method in _loaded.items() if method.name in wanted)
 
 
-def located(text: str) -> tuple[Path, str]:
+def split_method_file(text: str) -> tuple[Path, str]:
     """Absolute path of the file, and the name in it, of FILE.py:NAME.
 
     Raises:
@@ -64,7 +64,7 @@ def located(text: str) -> tuple[Path, str]:
 
 def content_digest(texts: Iterable[str]) -> str:
     """SHA-256 of the contents of these method files, "" for none."""
-    contents = [located(text)[0].read_bytes() for text in texts]
+    contents = [split_method_file(text)[0].read_bytes() for text in texts]
     return hashlib.sha256(b"\0".join(contents)).hexdigest() if contents else ""
 
 

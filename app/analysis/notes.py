@@ -7,10 +7,10 @@ def notes(recording: Recording) -> list[str]:
     """Warnings as sentences; some arise only once frames are read."""
     sentences = list(recording.warnings)
     if recording.duplicates:
-        sentences.append(f"Readings that came again, {recording.duplicates} of them, are left out.")
+        sentences.append(f"{recording.duplicates} duplicate readings are left out.")
     if unplaced := int(recording.unplaced.sum()):
         sentences.append(
-            f"{unplaced} of {len(recording)} frames are empty: they lie outside the "
-            f"poses that are known."
+            f"{unplaced} of {len(recording)} frames are empty: no sensor's pose is known at "
+            f"their time."
         )
     return sentences

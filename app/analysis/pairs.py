@@ -61,7 +61,7 @@ class Pair:
 
     @property
     def truly_moving(self) -> NDArray[np.bool_]:
-        """Mask (N,) of truly moving source points; all True where that is known of none."""
+        """Mask (N,) of truly moving source points; all True if none is known to move."""
         size = len(self.source.points) if self.source else 0
         if self.truth is None or self.truth.points is None:
             return np.ones(size, dtype=bool)

@@ -83,5 +83,5 @@ def load(path: Path) -> Parameters:
     except OSError as error:
         raise InputError(f"{path} cannot be read as parameters ({error.strerror}).") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"{path} is no text, and so no file of parameters.") from error
+        raise InputError(f"{path} is not a text file, so it cannot be a parameter file.") from error
     return from_text(text, str(path))

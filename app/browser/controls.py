@@ -9,7 +9,7 @@ import viser
 from app.browser.internals import call_in_event_loop, send_value
 
 _PATIENCE = 2.0  # seconds
-_QUIET = 0.3  # seconds after a person's last change, so that typing is not disturbed
+_QUIET = 0.3  # seconds after the user's last change, so that typing is not disturbed
 
 
 def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
@@ -37,10 +37,10 @@ def show_value(control: viser.GuiInputHandle[Any], value: object) -> None:
 
 
 class _Repeats:
-    """Values of a control that are sent to the page again after a person's changes.
+    """Repeated sending of a control's value to the page after the user's changes.
 
-    A value on its way to the page may arrive there after a person has chosen another one. The page
-    would go on showing the older, while the session has taken the person's.
+    A value on its way to the page may arrive there after the user has chosen another one. The page
+    would go on showing the older value, while the session has the user's.
     """
 
     def __init__(self, control: viser.GuiInputHandle[Any]) -> None:

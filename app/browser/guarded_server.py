@@ -18,7 +18,9 @@ _starting = threading.Lock()
 
 
 class GuardedServer(viser.ViserServer):
-    """Server that answers programs and its own pages, but no page of another origin.
+    """Server that rejects requests of pages of other origins.
+
+    Requests without an origin, such as those of programs, are answered.
 
     Args:
         host: address to listen on.

@@ -140,8 +140,8 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
         )
     if opening.truth_frame is not None:
         warnings.append(
-            f"{path}: coverage, precision, EPE3D and what stands beside them take every point to "
-            f"move with {opening.truth_frame}."
+            f"{path}: coverage, precision, EPE3D and the other metrics of points assume that every "
+            f"point moves with {opening.truth_frame}."
         )
     return row | _as_json(metrics), warnings
 

@@ -185,14 +185,14 @@ def _check_flags(options: argparse.Namespace) -> None:
     """Raise InputError for a flag that does not apply to the kind of export."""
     if options.html and len(options.view) > 1:
         raise InputError(f"An offline page has one view, got {len(options.view)}: --view 3d.")
-    made, others = (
-        ("--screenshot", ("frames",))
+    made, other, others = (
+        ("--screenshot", "--html", ("frames",))
         if options.screenshot
-        else ("--html", ("frame", "size", "transparent", "legend"))
+        else ("--html", "--screenshot", ("frame", "size", "transparent", "legend"))
     )
     for name in others:
         if getattr(options, name) not in (None, False):
-            raise InputError(f"--{name} has no meaning beside {made}; leave it out.")
+            raise InputError(f"--{name} applies only to {other}, not to {made}; leave it out.")
 
 
 def _check_frame(opened: "Opened", frame: int) -> None:
@@ -206,7 +206,7 @@ def _check_frame(opened: "Opened", frame: int) -> None:
 def _check_output(path: Path, ending: str) -> None:
     """Raise InputError where a file cannot be written, before anything is computed."""
     if path.suffix.lower() != ending and not path.is_dir():
-        raise InputError(f"{path} will not be known for what it is; let its name end in {ending}.")
+        raise InputError(f"{path} must end in {ending}, so that programs know its format.")
     check_output(path)
 
 

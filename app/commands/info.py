@@ -9,17 +9,17 @@ from typing import Any
 from app.commands.flags.recording_flags import Opening, add_recording_flags, opening_from
 from app.errors import UserError
 from app.terminal.printable import printable
-from app.terminal.tables import Column, show, table_of
-from recordings import Recording
+from app.terminal.tables import ColumnStyle, show, table_of
+from recordings import Provenance, Recording
 from recordings.info import FileInfo, TopicInfo, file_info
 
 _COLUMNS = (
-    Column(["topic"]),
-    Column(["type"]),
-    Column(["messages"], right=True),
-    Column(["rate"], right=True),
-    Column(["longest gap"], right=True),
-    Column(["used as"], wraps=True),
+    ColumnStyle(["topic"]),
+    ColumnStyle(["type"]),
+    ColumnStyle(["messages"], right=True),
+    ColumnStyle(["rate"], right=True),
+    ColumnStyle(["longest gap"], right=True),
+    ColumnStyle(["used as"], wraps=True),
 )
 
 
@@ -105,15 +105,15 @@ def _lines(summary: dict[str, Any]) -> list[str]:
         f"robot         {summary['robot'] or 'none'}",
         f"truth         {'yes' if summary['truth'] else 'none'}",
     ]
-    if source := summary["provenance"]:
-        kind = "simulated" if source["simulated"] else "measured"
+    if summary["provenance"]:
+        source = Provenance(**summary["provenance"])
+        kind = "simulated" if source.simulated else "measured"
         lines += [
-            f"provenance    {kind}: {source['scenario']}, {source['speed']:g} m/s, "
-            f"trial {source['trial']}, seed {source['seed']}",
-            f"noise         {source['noise']}",
-            *([f"rig           {source['rig']}"] if source["rig"] else []),
-            f"imperfections {', '.join(source['imperfections']) or 'none'}",
-            f"made by       {source['command']}",
+            f"provenance    {kind}: {source.experiment}, seed {source.seed}",
+            f"noise         {source.noise}",
+            *([f"rig           {source.rig}"] if source.rig else []),
+            f"imperfections {', '.join(source.imperfections) or 'none'}",
+            f"made by       {source.command}",
         ]
     return lines + [f"warning       {warning}" for warning in summary["warnings"]]
 

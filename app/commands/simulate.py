@@ -1,11 +1,17 @@
 """`tofscope simulate`: recordings of the paper's scenarios and more, simulated by ray casting."""
 
 import argparse
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from app.commands.flags.simulation_flags import MAX_SPEED, check_simulation
+from app.commands.flags.simulation_flags import (
+    ALL,
+    MAX_SPEED,
+    MORE,
+    check_simulation,
+    scenario_names,
+)
 from app.errors import InputError
 from app.terminal.printable import printable
 from recordings import RecordingError, open_recording
@@ -21,7 +27,7 @@ from recordings.simulation import (
 from robot_assets import load_rig, load_robot
 
 _ENDING = ".mcap"
-_ALL, _MORE = "all", "more"
+
 _ONE_TRIAL = 1
 
 
@@ -43,10 +49,10 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
     parser.add_argument(
         "scenarios",
         nargs="+",
-        choices=[*SCENARIOS, _ALL, _MORE],
+        choices=[*SCENARIOS, ALL, MORE],
         metavar="SCENARIO",
         help=(
-            f"{scenarios}; {_ALL}: the paper's {', '.join(PAPER_SCENARIOS)}; {_MORE}: the others"
+            f"{scenarios}; {ALL}: the paper's {', '.join(PAPER_SCENARIOS)}; {MORE}: the others"
         ).replace("%", "%%"),
     )
     parser.add_argument(
@@ -116,7 +122,7 @@ def run(options: argparse.Namespace) -> int:
     rig.check_links(robot.links, robot.name)
     wanted = [
         (scenario, speed, trial)
-        for scenario in _scenarios(options.scenarios)
+        for scenario in map(SCENARIOS.__getitem__, scenario_names(options.scenarios))
         for speed in dict.fromkeys(_speeds_of(scenario, options.speed, single))
         for trial in dict.fromkeys(trials)
     ]
@@ -150,16 +156,6 @@ def run(options: argparse.Namespace) -> int:
         said = f"{path}: {count} frames, {path.stat().st_size / 1e6:.1f} MB"
         print(printable(said), flush=True)
     return 0
-
-
-def _scenarios(names: Iterable[str]) -> list[Scenario]:
-    """Scenarios by names and groups, each once, in the order given."""
-    groups = {
-        _ALL: PAPER_SCENARIOS,
-        _MORE: [name for name in SCENARIOS if name not in PAPER_SCENARIOS],
-    }
-    found = dict.fromkeys(member for name in names for member in groups.get(name, [name]))
-    return [SCENARIOS[name] for name in found]
 
 
 def _speeds_of(scenario: Scenario, asked: list[float] | None, single: bool) -> Sequence[float]:

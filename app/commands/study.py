@@ -18,8 +18,8 @@ from app.commands.flags.parameter_flags import (
     parameters_from,
 )
 from app.commands.flags.recording_flags import add_recording_flags, opening_from, recording_paths
-from app.commands.flags.simulation_flags import check_simulation
-from app.commands.flags.study_flags import ALL, MORE, add_execution_flags, add_source_flags
+from app.commands.flags.simulation_flags import ALL, check_simulation, scenario_names
+from app.commands.flags.study_flags import add_execution_flags, add_source_flags
 from app.errors import InputError
 from app.study.conditions import truth_frame_text
 from app.study.execution import outcomes
@@ -33,12 +33,7 @@ from app.study.work import Recorded, Work
 from app.terminal.printable import printable
 from app.terminal.tables import show
 from estimator import method_names
-from recordings.simulation import (
-    IMPERFECTIONS,
-    PAPER_SCENARIOS,
-    SCENARIOS,
-    TRIALS,
-)
+from recordings.simulation import IMPERFECTIONS, TRIALS
 from robot_assets import load_rig
 
 _T = TypeVar("_T")
@@ -92,16 +87,16 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
-    with _stopped_like_by_ctrl_c():
+    with _sigterm_as_ctrl_c():
         return _run(options)
 
 
 @contextmanager
-def _stopped_like_by_ctrl_c() -> Iterator[None]:
+def _sigterm_as_ctrl_c() -> Iterator[None]:
     """Handle SIGTERM like Ctrl-C: stop workers and remove temporary files."""
 
     def stop(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once: clearing away is under way
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second one must not interrupt the cleanup
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGTERM, stop)
@@ -198,7 +193,7 @@ def _execute(
         running.close()
         progress.close()
         for said in unkept:
-            print(f"Not kept for another time: {printable(said)}", file=sys.stderr)
+            print(f"Result not stored for later runs: {printable(said)}", file=sys.stderr)
     return failures
 
 
@@ -240,7 +235,7 @@ def _plan(options: argparse.Namespace) -> Plan:
     check_simulation(wanted.get("speed", ()), wanted.get("trial", ()), wanted.get("seed", 0))
     return replace(
         plan,
-        scenarios=_scenarios(wanted.get("scenario", [ALL])),
+        scenarios=scenario_names(wanted.get("scenario", [ALL])),
         speeds=_once(wanted["speed"]) if "speed" in wanted else None,
         trials=_once(wanted.get("trial", TRIALS)),
         seed=wanted.get("seed", 0),
@@ -256,11 +251,6 @@ def _checked_rig(path: Path | None) -> Path | None:
     if path is not None:
         load_rig(path)  # RigError where it cannot be used
     return path and path.absolute()
-
-
-def _scenarios(names: Iterable[str]) -> tuple[str, ...]:
-    groups = {ALL: PAPER_SCENARIOS, MORE: [n for n in SCENARIOS if n not in PAPER_SCENARIOS]}
-    return _once(member for name in names for member in groups.get(name, [name]))
 
 
 def _once(values: Iterable[_T]) -> tuple[_T, ...]:

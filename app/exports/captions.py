@@ -41,4 +41,4 @@ def origin(recording: Recording) -> str:
         return "measured"
     if source is None:
         return "simulated"
-    return f"simulated: {source.scenario}, {source.speed:g} m/s, trial {source.trial}"
+    return f"simulated: {source.experiment}"

@@ -14,7 +14,7 @@ from app.browser.guarded_server import GuardedServer
 from app.errors import InputError
 from app.exports.captions import caption
 from app.exports.chromium import headless_page
-from app.exports.pictures import composed, png, side_by_side
+from app.exports.pictures import picture_file
 from app.scene import theme
 from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
@@ -90,11 +90,8 @@ def picture(
     finally:
         server.stop()
     background = None if layout.transparent else theme.background(settings.dark)
-    legends = [legend] + [None] * len(taken)
-    pictures = [
-        composed(pixels, background, legend) for pixels, legend in zip(taken, legends, strict=False)
-    ]
-    return png(side_by_side(pictures), caption(opened.recording, parameters, pair.frame))
+    text = caption(opened.recording, parameters, pair.frame)
+    return picture_file(taken, background, legend, text)
 
 
 def _settled(

@@ -17,6 +17,26 @@ _DARK_INK, _LIGHT_INK = (38, 40, 44, 255), (230, 231, 234, 255)
 _DARK_GROUND, _LIGHT_GROUND = (28, 29, 32, 205), (255, 255, 255, 217)
 
 
+def picture_file(
+    views: Sequence[NDArray[np.uint8]],
+    background: Colour | None,
+    legend: Legend | None,
+    caption: Mapping[str, str],
+) -> bytes:
+    """PNG file of rendered views side by side.
+
+    Args:
+        views: pixels (H, W, 4) of each, transparent where nothing is drawn.
+        background: colour, None to keep it transparent.
+        legend: for the first view, None for none.
+        caption: {name: value}, the file's text.
+    """
+    first, *others = views
+    pictures = [composed(first, background, legend)]
+    pictures += [composed(pixels, background, None) for pixels in others]
+    return png(side_by_side(pictures), caption)
+
+
 def composed(
     pixels: NDArray[np.uint8], background: Colour | None, legend: Legend | None
 ) -> Image.Image:

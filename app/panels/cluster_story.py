@@ -1,10 +1,9 @@
 """HTML of a pair's clusters: a table of all, and the story of one, round by round."""
 
-import math
 from collections.abc import Callable, Sequence
 from html import escape
 
-from app.panels.tables import Row, framed, signed, table
+from app.panels.tables import TableRow, framed, number, table
 from app.scene.colours import css
 from app.scene.palettes import Palette
 from estimator import ClusterResult, IcpRound, Label, Parameters, StoryRow
@@ -38,7 +37,7 @@ def cluster_table(
     has_rounds = any(cluster.rounds for cluster in clusters)
     head = ("", "Points", *(("Fitness", "Displ.") if has_rounds else ()), "Label")
     rows = [
-        Row(
+        TableRow(
             cells=(
                 str(cluster.index),
                 f"{len(cluster.source)} / {len(cluster.target)}",
@@ -64,8 +63,8 @@ def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> s
     # The round that decides the label removes no inliers.
     removing = len(cluster.rounds) - (cluster.label != Label.UNASSIGNED)
     rows = [
-        Row(_round_cells(number, turn, parameters, removes=number <= removing))
-        for number, turn in enumerate(cluster.rounds, start=1)
+        TableRow(_round_cells(count, turn, parameters, removes=count <= removing))
+        for count, turn in enumerate(cluster.rounds, start=1)
     ]
     head = ("Round", "Points", "Fitness", "Displ.", "Removed")
     note = (
@@ -102,8 +101,8 @@ def legend(palette: Palette) -> str:
 
 
 def _last_round(cluster: ClusterResult) -> tuple[str, str]:
-    displacement = _number(1e3 * cluster.mean_displacement, "{:.0f} mm")
-    return _number(cluster.fitness, "{:.2f}"), displacement
+    displacement = number(1e3 * cluster.mean_displacement, ".0f", " mm")
+    return number(cluster.fitness, ".2f"), displacement
 
 
 def _own_story(cluster: ClusterResult) -> str:
@@ -111,7 +110,7 @@ def _own_story(cluster: ClusterResult) -> str:
     if not cluster.story:
         return ""
     with_thresholds = any(row.threshold is not None for row in cluster.story)
-    rows = [Row(_story_cells(row)[: 2 + with_thresholds]) for row in cluster.story]
+    rows = [TableRow(_story_cells(row)[: 2 + with_thresholds]) for row in cluster.story]
     return table(("", "Value", "Threshold")[: 2 + with_thresholds], rows)
 
 
@@ -126,23 +125,19 @@ def _story_cells(row: StoryRow) -> tuple[str, str, str]:
 
 
 def _round_cells(
-    number: int, turn: IcpRound, parameters: Parameters, *, removes: bool
+    count: int, turn: IcpRound, parameters: Parameters, *, removes: bool
 ) -> tuple[str, ...]:
     most = max(turn.source_size, turn.target_size)
     displacement = 1e3 * turn.mean_displacement
     return (
-        str(number),
-        _with_margin(f"{turn.source_size} / {turn.target_size}", most - parameters.n_min, "{:+d}"),
-        _with_margin(f"{turn.fitness:.2f}", turn.fitness - parameters.gamma, "{:+.2f}"),
-        _with_margin(f"{displacement:.0f} mm", displacement - 1e3 * parameters.delta, "{:+.0f}"),
+        str(count),
+        _with_margin(f"{turn.source_size} / {turn.target_size}", most - parameters.n_min, "+d"),
+        _with_margin(f"{turn.fitness:.2f}", turn.fitness - parameters.gamma, "+.2f"),
+        _with_margin(f"{displacement:.0f} mm", displacement - 1e3 * parameters.delta, "+.0f"),
         f"{len(turn.inlier_source)} / {len(turn.inlier_target)}" if removes else "none",
     )
 
 
 def _with_margin(value: str, margin: float, form: str) -> str:
     small = "opacity: 0.65; font-size: 0.9em"
-    return f'{value}<div style="{small}">{signed(margin, form)}</div>'
-
-
-def _number(value: float, form: str) -> str:
-    return "–" if math.isnan(value) else form.format(value)
+    return f'{value}<div style="{small}">{number(margin, form)}</div>'

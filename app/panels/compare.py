@@ -10,6 +10,7 @@ from app.errors import InputError
 from app.panels.differences import changes, difference_table
 from app.panels.panel import Panel, PanelContext
 from app.panels.tables import framed
+from app.panels.triggers import post_on
 from app.scene.colours import css
 from app.session.command import LatestWins, Repeated
 from app.session.snapshot import Snapshot
@@ -105,46 +106,23 @@ class ComparePanel(Panel):
             self._remove = gui.add_button(
                 "Remove B", icon=viser.Icon.X, color="gray", visible=False
             )
-        key = gui.add_command(
+        switching = gui.add_command(
             "Compare: switch between A and B", hotkey="B", icon=viser.Icon.SWITCH_HORIZONTAL
         )
         drawing = gui.add_command("Compare: draw both", icon=viser.Icon.LAYERS_INTERSECT)
         copying = gui.add_command("Compare: copy A to B", icon=viser.Icon.COPY)
         removing = gui.add_command("Compare: remove B", icon=viser.Icon.X)
 
-        # Coroutines run at once, before the control's value can change again.
-        @copy.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(CopyToB())
+        post_on(post, CopyToB(), copy, copying)
+        post_on(post, SwitchSide(), self._switch, switching)
+        post_on(post, ToggleBoth(), drawing)
+        post_on(post, RemoveB(), self._remove, removing)
 
-        @copying.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(CopyToB())
-
-        @drawing.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(ToggleBoth())
-
-        @removing.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(RemoveB())
-
-        @self._switch.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(SwitchSide())
-
-        @key.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(SwitchSide())
-
+        # A coroutine runs at once, before the control's value can change again.
         @self._both.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
                 post(DrawBoth(self._both.value))
-
-        @self._remove.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(RemoveB())
 
     def show(self, snapshot: Snapshot) -> None:
         """Show which side is edited, and how A and B differ."""

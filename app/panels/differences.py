@@ -1,11 +1,10 @@
 """Differences between two estimates of one frame, as HTML tables."""
 
-import math
 from collections.abc import Callable
 from html import escape
 
 from app.analysis.pairs import Pair
-from app.panels.tables import PLOTTED, Row, metric_label, signed, table
+from app.panels.tables import PLOTTED, TableRow, metric_label, number, table
 from estimator import METRIC_INFO, PARAMETER_INFO, Label, Parameters, all_methods, values_of
 
 _NAN = float("nan")
@@ -31,7 +30,7 @@ _ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
 
 def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
     """Table of numbers with A, with B, and B - A; a dash where unknown."""
-    rows = [Row((name, *_cells(name, of_a, of_b))) for name in _ROWS]
+    rows = [TableRow((name, *_cells(name, of_a, of_b))) for name in _ROWS]
     return table(("", "A", "B", "B − A"), rows)
 
 
@@ -62,8 +61,4 @@ def _cells(name: str, of_a: Pair | None, of_b: Pair | None) -> tuple[str, str, s
     form, value = _ROWS[name]
     a, b = (_NAN if pair is None else value(pair) for pair in (of_a, of_b))
     signed_form = f"+{form.removeprefix('+')}"
-    return _number(a, form), _number(b, form), _number(b - a, signed_form)
-
-
-def _number(value: float, form: str) -> str:
-    return "–" if math.isnan(value) else signed(value, f"{{:{form}}}")
+    return number(a, form), number(b, form), number(b - a, signed_form)

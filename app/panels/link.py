@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import viser
 
 from app.panels.panel import Panel, PanelContext
+from app.panels.triggers import post_on
 from app.session.command import LatestWins
 from app.session.outbox import LinkToCopy, Notice
 from app.session.workbench import Workbench
@@ -35,12 +36,5 @@ class LinkPanel(Panel):
         button = context.client.gui.add_button(
             "Copy link", icon=viser.Icon.LINK, hint="To recording, frame, camera and parameters."
         )
-        command = context.client.gui.add_command("Copy link", icon=viser.Icon.LINK)
-
-        @button.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            context.post(CopyLink())
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            context.post(CopyLink())
+        entry = context.client.gui.add_command("Copy link", icon=viser.Icon.LINK)
+        post_on(context.post, CopyLink(), button, entry)

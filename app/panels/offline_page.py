@@ -11,6 +11,7 @@ from app.errors import InputError
 from app.exports.file_names import safe
 from app.exports.offline_page import offline_page
 from app.panels.panel import Panel, PanelContext
+from app.panels.triggers import post_on
 from app.scene.views import THREE_D
 from app.session.command import LatestWins
 from app.session.links import SavedSession
@@ -59,16 +60,8 @@ class OfflinePagePanel(Panel):
             color="gray",
             hint="All frames as one HTML file, which plays in any browser without network",
         )
-
-        command = context.client.gui.add_command("Save offline page", icon=viser.Icon.MOVIE)
-
-        @button.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            context.post(SaveOfflinePage())
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            context.post(SaveOfflinePage())
+        entry = context.client.gui.add_command("Save offline page", icon=viser.Icon.MOVIE)
+        post_on(context.post, SaveOfflinePage(), button, entry)
 
 
 def _make(

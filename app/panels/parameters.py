@@ -16,6 +16,7 @@ from app.panels.parameter_controls import (
     label_of,
     shown_value,
 )
+from app.panels.triggers import post_on
 from app.session.command import Command
 from app.session.commands import ChangeParameters, ResetParameters
 from app.session.snapshot import Snapshot, Status
@@ -49,7 +50,7 @@ class ParametersPanel(Panel):
         self._infos = {"method": PARAMETER_INFO["method"], **_all_infos()}
         self._controls: dict[str, Any] = {}
         self._refused: set[str] = set()  # parameters whose controls hold a refused value
-        self._put_back: set[str] = set()
+        self._clamped: set[str] = set()
         self._readable_until = 0.0
         self._revision = 0
         self._method: str | None = None
@@ -86,14 +87,11 @@ class ParametersPanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(ResetParameters(self._resets.get(self._reset.value, frozenset())))
 
-        @reset_folded.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(ResetParameters(folded))
-
         @history.on_click
         async def _(_: viser.GuiEvent) -> None:
             post(UndoParameters(1 if history.value == "Undo" else -1))
 
+        post_on(post, ResetParameters(folded), reset_folded)
         _add_commands(gui, frozenset(self._infos), post)
         self._show_controls(context.parameters.method)
 
@@ -114,7 +112,7 @@ class ParametersPanel(Panel):
                 # Typed or loaded values may exceed the slider's range.
                 control.max = max(control.max, values[name])
                 control.min = min(control.min, values[name])
-        refused = {name for name, refusal in status.refusals.items() if not refusal.put_back}
+        refused = {name for name, refusal in status.refusals.items() if not refusal.clamped}
         anew = status.parameters_revision != self._revision
         for name in self._controls if anew else self._refused - refused:
             show_value(self._controls[name], shown_value(values[name]))
@@ -137,12 +135,12 @@ class ParametersPanel(Panel):
         self._reset.options = tuple(self._resets)
 
     def _show_refusal(self, refusals: Mapping[str, Refusal]) -> None:
-        put_back = {name for name, refusal in refusals.items() if refusal.put_back}
-        if put_back - self._put_back:
+        clamped = {name for name, refusal in refusals.items() if refusal.clamped}
+        if clamped - self._clamped:
             self._readable_until = time.monotonic() + _READING
-        self._put_back = put_back
-        reading = bool(put_back) and time.monotonic() < self._readable_until
-        self._refusal.visible = len(put_back) < len(refusals) or reading
+        self._clamped = clamped
+        reading = bool(clamped) and time.monotonic() < self._readable_until
+        self._refusal.visible = len(clamped) < len(refusals) or reading
         if refusals:
             *_, last = refusals.values()
             self._refusal.content = (
@@ -181,16 +179,6 @@ def _add_commands(
         icon=viser.Icon.ARROW_FORWARD_UP,
     )
     reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
-
-    # Coroutines run at once, so that keys keep their order.
-    @undo.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(UndoParameters(1))
-
-    @redo.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(UndoParameters(-1))
-
-    @reset.on_trigger
-    async def _(_: viser.CommandEvent) -> None:
-        post(ResetParameters(names))
+    post_on(post, UndoParameters(1), undo)
+    post_on(post, UndoParameters(-1), redo)
+    post_on(post, ResetParameters(names), reset)

@@ -18,6 +18,7 @@ from app.panels.playback_commands import (
     speed_name,
 )
 from app.panels.timeline_strip import strip
+from app.panels.triggers import post_on
 from app.session.clock import SPEEDS, Playback
 from app.session.commands import TogglePlay, seek, step
 from app.session.snapshot import Snapshot
@@ -70,9 +71,7 @@ class PlaybackPanel(Panel):
             if event.client_id is not None:
                 post(seek(self._slider.value))
 
-        @self._play.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(TogglePlay())
+        post_on(post, TogglePlay(), self._play)
 
         @steps.on_click
         async def _(_: viser.GuiEvent) -> None:

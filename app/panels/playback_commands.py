@@ -9,6 +9,7 @@ import viser
 from viser import Icon
 
 from app.analysis.timeline import neighbour
+from app.panels.triggers import post_on
 from app.session.clock import SPEEDS
 from app.session.command import Command, Repeated
 from app.session.commands import TogglePlay, seek, step
@@ -105,12 +106,7 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
         modifier: Any = None,  # noqa: ANN401
         icon: Any = None,  # noqa: ANN401
     ) -> None:
-        command = gui.add_command(label, hotkey=key, modifier=modifier, icon=icon)
-
-        # A coroutine runs at once, so that keys keep their order.
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(posted)
+        post_on(post, posted, gui.add_command(label, hotkey=key, modifier=modifier, icon=icon))
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
     # The palette shows raw names such as arrowleft; the arrow signs in labels are clearer.

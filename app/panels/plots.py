@@ -16,6 +16,7 @@ from app.exports.survey_csv import to_csv
 from app.panels.panel import Panel, PanelContext
 from app.panels.plot_list import PLOTS, PlotSpec, summary
 from app.panels.time_field import TimeField
+from app.panels.triggers import post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download
 from app.session.snapshot import Snapshot
@@ -23,7 +24,7 @@ from app.session.workbench import Workbench
 from recordings import Recording
 
 _WIDTH = 300  # pixels
-_NARROW = 1260  # width of a page in pixels, up to which the plots start folded
+_NARROW = 1260  # pixels; on pages up to this width the plots start folded
 
 
 @dataclass(frozen=True)
@@ -63,16 +64,8 @@ class PlotsPanel(Panel):
             self._time = TimeField(context)
             save = gui.add_button("Save as CSV", icon=viser.Icon.DOWNLOAD, color="gray")
 
-        command = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
-
-        # Coroutines run at once, before the control's value can change again.
-        @save.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            context.post(SavePlots())
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            context.post(SavePlots())
+        entry = gui.add_command("Save plots as CSV", icon=viser.Icon.DOWNLOAD)
+        post_on(context.post, SavePlots(), save, entry)
 
     def open(self, opened: Opened) -> None:
         """Set axes, and select plots by whether there is truth."""
@@ -110,17 +103,17 @@ class PlotsPanel(Panel):
                 handle.series = plot.series(colours)
 
     def _plot(self, recording: Recording, survey: Survey) -> None:
-        # Assigning scales, even equal ones, makes the page rebuild a plot. A plot that gets data
-        # during a rebuild loses its horizontal axis: so the first data, which may follow `open` at
-        # once, and the last data come together with scales.
-        anew = self._plotted is not survey or survey.complete
+        # Assigning scales, even equal ones, makes the page rebuild a plot, and data that arrive
+        # during a rebuild make it lose its horizontal axis. The first data, which may follow `open`
+        # at once, and the last data are therefore sent together with scales.
+        with_scales = self._plotted is not survey or survey.complete
         self._summary.content = summary(survey, has_truth=recording.has_truth)
         times = recording.stamps - recording.stamps[0]
         with self._client.atomic():
             for plot, _, handle in self._each():
                 handle.data = (times, *plot.data(survey))
                 scales = plot.scales(_seconds(recording.stamps), survey)
-                if anew or handle.scales != scales:
+                if with_scales or handle.scales != scales:
                     handle.scales = scales
 
     def _each(self) -> Iterator[tuple[PlotSpec, viser.GuiHtmlHandle, viser.GuiUplotHandle]]:

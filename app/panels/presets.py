@@ -11,6 +11,7 @@ from app.analysis.parameter_files import from_text, to_text
 from app.browser.controls import show_value
 from app.errors import InputError
 from app.panels.panel import Panel, PanelContext
+from app.panels.triggers import post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download, Notice
 from app.session.presets import Presets, PresetUse, preset_folder
@@ -44,11 +45,13 @@ class OpenParameters(LatestWins):
     def apply(self, workbench: Workbench) -> None:
         """Load them; InputError if the file is invalid."""
         if len(self.content) > _LARGEST:
-            raise InputError(f"{self.name} is too large for a file of parameters.")
+            raise InputError(f"{self.name} is too large for a parameter file.")
         try:
             text = self.content.decode()
         except UnicodeDecodeError as error:
-            raise InputError(f"{self.name} is no text, and so no file of parameters.") from error
+            raise InputError(
+                f"{self.name} is not a text file, so it cannot be a parameter file."
+            ) from error
         workbench.tuning.set(from_text(text, self.name))
 
 
@@ -109,7 +112,7 @@ class PresetsPanel(Panel):
                 icon=Icon.UPLOAD,
                 color="gray",
                 mime_type="application/json",
-                hint="A file of parameters, as Save as a file makes it.",
+                hint="A parameter file, as Save as a file makes it.",
             )
 
         # Coroutines run at once, before the control's value can change again.
@@ -122,15 +125,8 @@ class PresetsPanel(Panel):
         async def _(_: viser.GuiEvent) -> None:
             post(UsePreset("save", self._name.value.strip()))
 
-        @save.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(SaveParameters())
-
-        command = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
-
-        @command.on_trigger
-        async def _(_: viser.CommandEvent) -> None:
-            post(SaveParameters())
+        entry = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
+        post_on(post, SaveParameters(), save, entry)
 
         @self._upload.on_upload
         async def _(_: viser.GuiEvent) -> None:

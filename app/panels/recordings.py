@@ -54,9 +54,7 @@ def describe(opened: Opened) -> list[str]:
     lines: list[str] = []
     provenance = recording.provenance
     if provenance and recording.simulated:
-        lines.append(
-            f"Simulated: {provenance.scenario}, {provenance.speed:g} m/s, trial {provenance.trial}"
-        )
+        lines.append(f"Simulated: {provenance.experiment}")
     seconds = recording.stamps[-1] - recording.stamps[0] if len(recording) else 0.0
     count = len(recording.sensors)
     sensors = "1 sensor" if count == 1 else f"{count} sensors"
@@ -68,6 +66,6 @@ def describe(opened: Opened) -> list[str]:
 
 def _lines(said: Sequence[str]) -> str:
     lines = "".join(f"<div>{escape(text)}</div>" for text in said)
-    # As high with one line as with three: what a person is about to click on stays in place.
+    # As high with one line as with three, so that the controls below stay in place.
     style = f"font-size: 0.75rem; line-height: 1.2rem; min-height: {1.2 * _LINES}rem"
     return f'<div style="{style}; padding: 0 1em; opacity: 0.75">{lines}</div>'

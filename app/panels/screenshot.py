@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from app.errors import InputError
 from app.exports.captions import caption
 from app.exports.file_names import safe
-from app.exports.pictures import composed, png, side_by_side
+from app.exports.pictures import picture_file
 from app.panels.panel import Panel, PanelContext
 from app.scene import theme
 from app.scene.legend import Legend
@@ -61,16 +61,12 @@ class TakeScreenshot(LatestWins):
             _TRANSPARENT: None,
         }.get(self.background, theme.background(workbench.settings.dark))
         taken, legend = self._take(workbench)
-        legends = [legend if self.legend else None] + [None] * len(taken)
-        pictures = [
-            composed(pixels, background, legend)
-            for pixels, legend in zip(taken, legends, strict=False)
-        ]
         compared = tuning.comparison
         sides = compared.drawn(tuning.parameters) if compared else {}
         text = caption(recording, tuning.parameters, workbench.frame, sides)
         name = file_name(recording.name, workbench.frame, self.views)
-        workbench.outbox.append(Download(name, png(side_by_side(pictures), text)))
+        content = picture_file(taken, background, legend if self.legend else None, text)
+        workbench.outbox.append(Download(name, content))
 
     def _take(self, workbench: Workbench) -> tuple[list[NDArray[np.uint8]], Legend]:
         """Render the pixels (H, W, 4) of each view, and return their legend, too."""

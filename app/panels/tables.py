@@ -1,5 +1,6 @@
 """HTML tables in the panels' small font."""
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -11,7 +12,7 @@ PLOTTED = tuple(name for name, info in METRIC_INFO.items() if info.plotted)
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """A row of a table.
 
     Attributes:
@@ -47,7 +48,7 @@ def framed(content: str) -> str:
     return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
 
 
-def table(head: Sequence[str], rows: Iterable[Row]) -> str:
+def table(head: Sequence[str], rows: Iterable[TableRow]) -> str:
     """Table with a head of HTML cells."""
     cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
     first = "".join(f"<th {cell}>{name}</th>" for name in head)
@@ -63,11 +64,13 @@ def table(head: Sequence[str], rows: Iterable[Row]) -> str:
     )
 
 
-def signed(value: float, form: str) -> str:
-    """Format a signed number, with a typographic minus as wide as the plus."""
-    return form.format(value).replace("-", "−")
+def number(value: float | None, form: str, unit: str = "") -> str:
+    """Format a number with its unit and a typographic minus, – where it is undefined."""
+    if value is None or math.isnan(value):
+        return "–"
+    return f"{value:{form}}{unit}".replace("-", "−")
 
 
-def _look(row: Row) -> str:
+def _look(row: TableRow) -> str:
     mark = f"; box-shadow: inset 3px 0 {css(row.mark)}; font-weight: bold" if row.mark else ""
     return f"{mark}; cursor: pointer" if row.attributes else mark

@@ -15,7 +15,7 @@ from app.session.command import LatestWins
 from app.session.snapshot import Snapshot, TimeSeek
 from app.session.workbench import Workbench
 
-_TYPING = 2.0  # seconds for which a typed time stays during playback
+_TYPING = 2.0  # seconds for which a typed time is kept during playback
 
 
 @dataclass(frozen=True)
@@ -33,17 +33,17 @@ class SeekTime(LatestWins):
 
 
 class TimeField:
-    """Field that follows the frame unless the user is typing; part of a panel.
+    """Field that shows the current frame's time unless the user is typing; part of a panel.
 
     Attributes:
-        field: its id in the page.
+        field: id of its element in the page.
     """
 
     def __init__(self, context: PanelContext) -> None:
-        self._typed: float | None = None  # a typed time that the session has not reached yet
+        self._typed: float | None = None  # a typed time to which the session has not yet sought
         self._typed_at = -_TYPING
-        self._sought: TimeSeek | None = None
-        self._stays_at: int | None = None  # the frame of the last typed time
+        self._last_seek: TimeSeek | None = None
+        self._kept_frame: int | None = None  # frame at which the typed time is kept in the field
         self._control = context.client.gui.add_number(
             "Go to [s]",
             0.0,
@@ -62,21 +62,21 @@ class TimeField:
 
     def open(self, opened: Opened) -> None:
         """Set the range to the recording's duration."""
-        self._typed = self._stays_at = None
+        self._typed = self._kept_frame = None
         end = float(opened.recording.stamps[-1] - opened.recording.stamps[0])
         self._control.max = math.ceil(1e3 * end) / 1e3
 
     def show(self, snapshot: Snapshot) -> None:
-        """Show the frame's time; a typed time stays until its frame is left."""
+        """Show the frame's time; a typed time is kept until another frame is shown."""
         time_seek = snapshot.time_seek
-        if time_seek is not None and time_seek is not self._sought:
-            self._stays_at = time_seek.frame
+        if time_seek is not None and time_seek is not self._last_seek:
+            self._kept_frame = time_seek.frame
             if time_seek.seconds == self._typed:
                 self._typed = None
-        self._sought = time_seek
+        self._last_seek = time_seek
         typing = snapshot.playing and time.monotonic() < self._typed_at + _TYPING
-        if typing or self._typed is not None or snapshot.frame == self._stays_at:
+        if typing or self._typed is not None or snapshot.frame == self._kept_frame:
             return
-        self._stays_at = None
+        self._kept_frame = None
         stamps = snapshot.opened.recording.stamps
         show_value(self._control, round(float(stamps[snapshot.frame] - stamps[0]), 3))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.scene.colours import Colour
 from app.scene.palettes import Palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 
 SOURCE_NODE = f"{FIXED}/source"
 TARGET_NODE = f"{FIXED}/target"

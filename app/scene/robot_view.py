@@ -1,4 +1,4 @@
-"""Drawing of the robot: one frame per link, with the link's meshes below it."""
+"""Drawing of the robot: one frame per link, with the link's meshes as its children."""
 
 from collections.abc import Mapping
 
@@ -6,8 +6,8 @@ import numpy as np
 import viser
 
 from app.scene.node_poses import UNKNOWN, node_name, set_poses
+from app.scene.scene_root import FIXED
 from app.scene.shapes import RobotShape
-from app.scene.stage import FIXED
 from robot_assets import Transform
 
 ROOT = f"{FIXED}/robot"

@@ -24,11 +24,11 @@ from app.scene.flow_colours import arrow_colours, source_colours, speed_limit
 from app.scene.legend import Legend, legend
 from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
+from app.scene.scene_root import AXES, GRID, SceneRoot, upright
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
 from app.scene.shapes import robot_shape
-from app.scene.stage import AXES, GRID, Stage, upright
 from app.scene.truth import ghost, truth_arrow
 from app.scene.views import ROBOT, THREE_D, Projection, named_view
 from estimator import ClusterResult, Label
@@ -73,7 +73,7 @@ class Scene:
         self._marked: ClusterResult | None = None
         self._R_drawing_fixed = np.eye(3)
         self._speed_limit = 0.0
-        self._stage = Stage(canvas.scene, settings.palette)
+        self._root = SceneRoot(canvas.scene, settings.palette)
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
         self._clouds = CloudsView(canvas.scene, settings.palette)
@@ -92,7 +92,7 @@ class Scene:
             self._sensors.remove()
         self._sensors = SensorsView(self._canvas.scene, recording.sensors)
         self._R_drawing_fixed = upright(recording.fixed_frame)
-        self._stage.orient(self._R_drawing_fixed)
+        self._root.orient(self._R_drawing_fixed)
         self._shown = None
         self._speed_limit = 0.0
 
@@ -214,7 +214,7 @@ class Scene:
         before, self._settings = self._settings, settings
         if settings.palette != before.palette:
             self._clouds.paint(settings.palette)
-            self._stage.paint(settings.palette)
+            self._root.paint(settings.palette)
             if self._selection:
                 self._selection.paint(settings.palette)
         if settings.point_size != before.point_size and self._lens:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from app.analysis.pairs import Pair
 from app.analysis.selection import points_of
 from app.scene.palettes import Palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"

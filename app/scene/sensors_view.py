@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from app.scene.colours import FRUSTUM, SENSOR
 from app.scene.node_poses import node_name, set_poses
 from app.scene.palettes import Palette
+from app.scene.scene_root import FIXED
 from app.scene.shapes import ring_through
-from app.scene.stage import FIXED
 from recordings import RecordedSensor
 
 SENSORS = f"{FIXED}/sensors"

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.scene.colours import Colour
 from robot_assets import Robot
 
-_DARKEST = 84  # lowest channel value: darker meshes vanish before a dark background
+_DARKEST = 84  # lowest channel value: darker meshes are invisible on a dark background
 # Faces that meet at a larger angle than this keep a sharp edge; others are smooth-shaded.
 _EDGE = np.radians(35.0)
 
@@ -46,7 +46,7 @@ class RobotShape:
 
 @lru_cache(maxsize=4)
 def robot_shape(robot: Robot) -> RobotShape:
-    """The visual meshes of a robot, a part per link and colour, vertices welded."""
+    """The visual meshes of a robot, welded and split by link and colour."""
     links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
     digest = hashlib.sha256()
     for link, parts in links.items():

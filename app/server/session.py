@@ -98,7 +98,7 @@ class Session:
                     f"The recording {saved.label} is not among those that are listed here."
                 )
                 saved = None  # its parameters were chosen for that recording
-            # Before there is a page, so that what a person does there comes after it.
+            # Before there is a page, so that the user's commands come after it.
             self._queue.post(OpenFirst((*([saved.label] if saved else []), *labels)))
             if saved:
                 self._queue.post(Restore(saved))
@@ -165,7 +165,7 @@ class Session:
     def _apply(self, command: Command, workbench: Workbench, page: Page) -> None:
         command.apply(workbench)
         # Later commands in the queue refer to the recording that this one opens.
-        while workbench.opening.label is not None:
+        while workbench.open_requests.label is not None:
             page.announce(workbench.status())
             workbench.open_next()
 

@@ -32,10 +32,7 @@ class LatestWins:
 
 
 class Background:
-    """Command that no person gives and whose place among theirs does not matter.
-
-    Such commands may come in between a person's at any rate.
-    """
+    """Internal command; its order relative to user commands is irrelevant."""
 
 
 @dataclass(frozen=True)

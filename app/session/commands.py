@@ -1,4 +1,4 @@
-"""Commands posted by several panels or by the session; panels define their own beside them."""
+"""Commands posted by several panels or by the session; a panel's own are in its module."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class OpenRecording(LatestWins):
         """Request it, unless it is open already."""
         opened = workbench.opened
         if opened is None or opened.entry.label != self.label:
-            workbench.opening.request([self.label])
+            workbench.open_requests.request([self.label])
 
 
 @dataclass(frozen=True)
@@ -33,12 +33,12 @@ class OpenFirst(LatestWins):
 
     def apply(self, workbench: Workbench) -> None:
         """Request them."""
-        workbench.opening.request(self.labels)
+        workbench.open_requests.request(self.labels)
 
 
 @dataclass(frozen=True)
 class Restore(LatestWins):
-    """Restore a saved session, once its recording was opened."""
+    """Restore a saved session after its recording has been opened."""
 
     saved: SavedSession
 
@@ -118,7 +118,7 @@ class ChangeParameters:
 
 @dataclass(frozen=True)
 class ResetParameters:
-    """Reset the parameters of these names to the values that the app was started with."""
+    """Reset these parameters to the values that the app was started with."""
 
     names: frozenset[str]
 

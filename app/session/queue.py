@@ -6,11 +6,11 @@ from app.session.command import Background, Command
 
 
 class CommandQueue:
-    """Thread-safe queue of pending commands, in the order in which a person meant them.
+    """Thread-safe queue of pending commands, in posting order.
 
     Consecutive commands of one kind are merged, so that the queue stays short while a slider is
-    dragged. They are not merged past a command of another kind, which may depend on the order;
-    background commands do not.
+    dragged. They are not merged across a command of another kind, which may depend on the order.
+    Background commands may be merged across others, and others across them.
     """
 
     def __init__(self) -> None:
@@ -19,13 +19,13 @@ class CommandQueue:
         self._closed = False
 
     def post(self, command: Command) -> None:
-        """Add a command, merged with the last pending one where that is of its kind."""
+        """Add a command, or merge it with the last pending one if both are of one kind."""
         with self._changed:
-            place = self._place(command)
-            if place is None:
+            index = self._mergeable(command)
+            if index is None:
                 self._pending.append(command)
             else:
-                self._pending[place] = command.merged_with(self._pending[place])
+                self._pending[index] = command.merged_with(self._pending[index])
             self._changed.notify()
 
     def has(self, kind: type[Command]) -> bool:
@@ -61,8 +61,8 @@ class CommandQueue:
             self._closed = True
             self._changed.notify_all()
 
-    def _place(self, command: Command) -> int | None:
-        """Index of the pending command that this one is merged with, None where there is none."""
+    def _mergeable(self, command: Command) -> int | None:
+        """Index of the pending command to merge this one with, None if there is none."""
         for index in reversed(range(len(self._pending))):
             earlier = self._pending[index]
             if type(earlier) is type(command):

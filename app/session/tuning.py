@@ -15,12 +15,12 @@ class Refusal:
 
     Attributes:
         reason: a sentence.
-        put_back: whether the browser has since clamped it to an end of the slider: the control must
+        clamped: whether the browser has since clamped it to an end of the slider: the control must
             then show the value in use, and the reason stays readable for a while.
     """
 
     reason: str
-    put_back: bool = False
+    clamped: bool = False
 
 
 class Tuning:
@@ -28,7 +28,7 @@ class Tuning:
 
     Args:
         parameters: initial ones.
-        defaults: of a reset.
+        defaults: that a reset restores.
 
     Attributes:
         parameters: the edited ones.
@@ -58,8 +58,8 @@ class Tuning:
         """
         for name in at_end:
             refusal = self.refusals.get(name)
-            if refusal is not None and not refusal.put_back:
-                self.refusals[name] = replace(refusal, put_back=True)
+            if refusal is not None and not refusal.clamped:
+                self.refusals[name] = replace(refusal, clamped=True)
                 values = {other: value for other, value in values.items() if other != name}
         if not values:
             return
@@ -77,7 +77,7 @@ class Tuning:
     def set(self, parameters: Parameters) -> None:
         """Replace the parameters, as one change."""
         self._histories.of(self.comparison).note(self.parameters, parameters, None)
-        self._show(parameters)
+        self._replace(parameters)
 
     def reset(self, names: Iterable[str]) -> None:
         """Reset parameters to the defaults."""
@@ -87,18 +87,18 @@ class Tuning:
     def undo(self, changes: int) -> None:
         """Undo this many changes, or redo them if negative."""
         history, parameters = self._histories.of(self.comparison), self.parameters
-        go = history.undo if changes > 0 else history.redo
+        step = history.undo if changes > 0 else history.redo
         for _ in range(abs(changes)):
-            parameters = go(parameters) or parameters
-        self._show(parameters)
+            parameters = step(parameters) or parameters
+        self._replace(parameters)
 
     def compare(self, comparison: Comparison | None, edited: Parameters) -> None:
         """Set the comparison, None for none, and the edited parameters."""
         self._histories.compare(self.comparison, self.parameters, comparison, edited)
         self.comparison = comparison
-        self._show(edited)
+        self._replace(edited)
 
-    def _show(self, parameters: Parameters) -> None:
+    def _replace(self, parameters: Parameters) -> None:
         self.parameters = parameters
         self.refusals.clear()
         self.revision += 1

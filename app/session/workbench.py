@@ -22,7 +22,7 @@ from app.scene.settings import ViewSettings
 from app.session.clock import PlaybackClock
 from app.session.followed_survey import FollowedSurvey
 from app.session.links import SavedSession
-from app.session.opening import Opening
+from app.session.open_requests import OpenRequests
 from app.session.outbox import Message, Notice
 from app.session.presets import PresetUse
 from app.session.snapshot import Snapshot, Status, TimeSeek
@@ -77,7 +77,7 @@ class Workbench:
         self.library, self.estimates = library, estimates
         self.tuning, self.settings = tuning, settings
         self.survey, self.timeline, self.tasks = survey, timeline, tasks
-        self.opening = Opening(library, entries)
+        self.open_requests = OpenRequests(library, entries)
         self.opened: Opened | None = None
         self.clock = PlaybackClock([0.0])
         self.frame = 0
@@ -100,10 +100,10 @@ class Workbench:
         Raises:
             InputError: requested recordings could not be opened, and none is left to try.
         """
-        opened = self.opening.try_next()
+        opened = self.open_requests.try_next()
         if opened is not None:
             self._begin(opened)
-        self.opening.raise_failure()
+        self.open_requests.raise_failure()
 
     def draw(self) -> None:
         """Draw the frame that is due, if anything has changed."""
@@ -252,7 +252,7 @@ class Workbench:
     def _status(self) -> dict[str, Any]:
         outbox, self.outbox = tuple(self.outbox), []
         return {
-            "opening": self.opening.label,
+            "opening": self.open_requests.label,
             "parameters": self.tuning.parameters,
             "parameters_revision": self.tuning.revision,
             "refusals": dict(self.tuning.refusals),

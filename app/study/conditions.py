@@ -31,7 +31,7 @@ def opening_text(plan: Plan) -> str:
     if first and first.truth_frame:
         sentences.append(
             f"The truth is the motion of the frame {first.truth_frame}: coverage, precision, EPE3D "
-            "and what stands beside them take every point to move with it."
+            "and the other metrics of points assume that every point moves with it."
         )
     return " ".join(sentences)
 

@@ -10,19 +10,19 @@ from app.terminal.output import terminal
 from app.terminal.printable import printable
 
 _SIMULATING = 2.0
-"""Estimates of a method over a recording that take as long as simulating it."""
+"""Time to simulate a recording, in units of the time to run one method on it."""
 
 
 class Progress:
-    """Says how far a study is, on standard output.
+    """Progress of a study on standard output.
 
     Args:
-        works: what is left to do.
-        total: units of work in all, those that are known from before included.
-        at_once: units that are done at the same time.
+        works: remaining units of work.
+        total: number of all units, including those finished in earlier runs.
+        at_once: number of units that run at the same time.
 
     Attributes:
-        finished: units of work, those from before included.
+        finished: number of finished units, including those of earlier runs.
     """
 
     def __init__(self, works: Sequence[Work], total: int, at_once: int = 1) -> None:
@@ -33,17 +33,17 @@ class Progress:
         self._bar = Bar(console, total) if console else None
         begin = monotonic()
         self._begun = deque([begin] * min(at_once, len(works)))
-        """When what is under way began, the earliest first."""
+        """Start times of the running units, the earliest first."""
         self._done = self._spent = 0.0
         if self._bar and works:
             self._bar.show(self.finished, "", f"{len(works)} left")
 
     def advance(self, source: Source) -> None:
-        """A unit of work is finished, and where there is more, another one begins."""
+        """Count a finished unit; the next one, if any, starts now."""
         now = monotonic()
         self.finished += 1
         self._done += self._efforts.pop(source)
-        # Which of those under way this was does not matter: together they began then.
+        # Any of the running units may have finished: only the sum of their start times counts.
         self._spent += now - self._begun.popleft()
         if len(self._begun) < len(self._efforts):
             self._begun.append(now)
@@ -54,7 +54,7 @@ class Progress:
             print(f"{self.finished}/{self._total}  {name}  {self._left(now)}", flush=True)
 
     def close(self) -> None:
-        """Clear the bar away."""
+        """Clear the bar."""
         if self._bar:
             self._bar.hide()
 
@@ -62,8 +62,8 @@ class Progress:
         if not self._efforts:
             return "all finished"
         work = sum(self._efforts.values()) * self._spent / self._done
-        under_way = sum(now - begun for begun in self._begun)
-        seconds = max(work - under_way, 0.0) / len(self._begun)
+        running = sum(now - begun for begun in self._begun)
+        seconds = max(work - running, 0.0) / len(self._begun)
         return f"{len(self._efforts)} left, about {duration(seconds)}"
 
 
@@ -75,6 +75,6 @@ def _effort(work: Work) -> float:
 
 
 def duration(seconds: float) -> str:
-    """Seconds as people say them."""
+    """Format a duration in seconds or minutes, such as "12 s" or "3 min 05 s"."""
     whole = round(seconds)
     return f"{whole} s" if whole < 100 else f"{whole // 60} min {whole % 60:02d} s"

@@ -1,7 +1,7 @@
 """Ranges of numbers as text."""
 
 
-def span(found: list[float], form: str) -> str:
-    """Least and greatest value as text, or one number if both read the same."""
-    low, high = format(min(found), form), format(max(found), form)
+def span(values: list[float], form: str) -> str:
+    """Minimum and maximum as text, or one number if both are formatted alike."""
+    low, high = format(min(values), form), format(max(values), form)
     return low if low == high else f"{low} to {high}"

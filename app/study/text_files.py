@@ -5,8 +5,7 @@ import io
 from typing import TYPE_CHECKING
 
 from app.study.table import Column, Table, shown
-from app.terminal.tables import Column as Titled
-from app.terminal.tables import table_of
+from app.terminal.tables import ColumnStyle, table_of
 
 if TYPE_CHECKING:
     from rich.table import Table as RichTable
@@ -36,7 +35,7 @@ def as_markdown(table: Table, conditions: str) -> str:
 
 def for_terminal(table: Table) -> "RichTable":
     """For a terminal, without its title."""
-    columns = [Titled(_stacked(column), right=bool(column.form)) for column in table.columns]
+    columns = [ColumnStyle(_stacked(column), right=bool(column.form)) for column in table.columns]
     rows = ([shown(c, row[c.key]) for c in table.columns] for row in table.rows)
     return table_of(columns, rows)
 

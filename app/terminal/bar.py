@@ -31,7 +31,7 @@ class Bar:
             ),
             TextColumn("{task.fields[remark]}", markup=False, table_column=Column(no_wrap=True)),
             console=console,
-            auto_refresh=False,  # a thread has no place beside processes that are forked
+            auto_refresh=False,  # workers are forked, which is unsafe with a refresh thread
             transient=True,
             redirect_stdout=False,
             redirect_stderr=False,
@@ -46,7 +46,7 @@ class Bar:
         )
         self._progress.start()
         self._progress.refresh()
-        self._console.show_cursor(True)  # who ends the process must not be left without
+        self._console.show_cursor(True)  # it would stay hidden if the process were killed
 
     def hide(self) -> None:
         """Clear the line, so that something can be printed."""

@@ -17,7 +17,7 @@ _NARROWEST = 20
 """Characters of a column whose cells have several lines."""
 
 
-class Column(NamedTuple):
+class ColumnStyle(NamedTuple):
     """A column.
 
     Attributes:
@@ -31,7 +31,7 @@ class Column(NamedTuple):
     wraps: bool = False
 
 
-def table_of(columns: Iterable[Column], rows: Iterable[Iterable[str]]) -> "Table":
+def table_of(columns: Iterable[ColumnStyle], rows: Iterable[Iterable[str]]) -> "Table":
     """A table for `show`; control characters in its cells become escapes."""
     from rich.cells import cell_len
     from rich.table import Table

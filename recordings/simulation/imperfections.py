@@ -36,8 +36,8 @@ IMPERFECTIONS = {
         ),
         Imperfection(
             "dropouts",
-            "readings of wood and of screens drop out for a while: valid stays valid with "
-            "probability 0.943, invalid becomes valid with 0.038",
+            "readings of wood and of screens drop out for several frames: a two-state Markov "
+            "chain, valid to valid with probability 0.943, invalid to valid with 0.038",
         ),
         Imperfection(
             "flying_pixels",
@@ -46,12 +46,12 @@ IMPERFECTIONS = {
         ),
         Imperfection(
             "ramps",
-            "motions take 0.25 s to reach their speed and 0.25 s to stop, instead of none",
+            "motions accelerate for 0.25 s and decelerate for 0.25 s, instead of instantly",
         ),
-        Imperfection("dropped_frames", "frames are lost, 5 % of them"),
+        Imperfection("dropped_frames", "5 % of the frames are lost"),
         Imperfection(
             "stamp_jitter",
-            "stamps are off from the time of the readings, one sigma 4 ms",
+            "stamps deviate from the time of the readings, one sigma 4 ms",
         ),
     )
 }

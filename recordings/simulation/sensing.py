@@ -47,7 +47,7 @@ class Sensing:
         sensors: number of sensors.
         model: of all of them.
         noise: model of the errors.
-        imperfections: names of those that are switched on.
+        imperfections: names of the enabled ones.
         rng: of the noise.
         streams: of the imperfections.
     """
@@ -94,22 +94,22 @@ class Sensing:
         if self._flying and edges:
             seen, status = self._flying.next(seen, edges)
             states.append(status)
-        met = np.isfinite(seen.distance)
-        true = np.where(met, seen.distance, 0.0)
-        reflectance, hard = _looked_up(seen.piece, surfaces)
+        hit = np.isfinite(seen.distance)
+        true = np.where(hit, seen.distance, 0.0)
+        reflectance, drops_out = _properties(seen.piece, surfaces)
         sigma = self._noise.sigma(true, reflectance, self._rng) * self._factors
         noisy = true + sigma * self._rng.standard_normal(true.shape) + self._noise.shift(true)
         for error in self._errors:
             noisy = noisy + error.error(true)
         if self._dropouts:
-            states.append(self._dropouts.next(hard))
+            states.append(self._dropouts.next(drops_out))
         reach = self._noise.reach(true, reflectance, self._corner)
         if np.isfinite(reach).any():
             states.append(np.where(true > reach, NO_TARGET, VALID).astype(np.uint8))
         status = _worst(states)
         if status is not None:
             noisy = noisy + np.where(status == VALID, 0.0, self._implausible_errors(true.shape))
-        reported = met & (noisy >= self._model.min_range) & (noisy <= self._model.max_range)
+        reported = hit & (noisy >= self._model.min_range) & (noisy <= self._model.max_range)
         if status is not None:
             status = np.where(reported, status, NO_TARGET).astype(np.uint8)
         return Report(seen, np.where(reported, noisy, np.nan), status)
@@ -121,16 +121,16 @@ class Sensing:
         return np.where(rng.random(shape) < _PLAUSIBLE, 0.0, size)
 
 
-def _looked_up(
+def _properties(
     piece: NDArray[np.int64], surfaces: dict[int, Surface]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Reflectance and hardness of the surface of each mesh index."""
+    """Reflectance of the surface of each mesh index, and whether its readings drop out."""
     # The last row is for the index -1, of zones that hit nothing.
     rows = max(surfaces, default=0) + 2
-    reflectance, hard = np.ones(rows), np.zeros(rows, dtype=bool)
+    reflectance, drops_out = np.ones(rows), np.zeros(rows, dtype=bool)
     for index, surface in surfaces.items():
-        reflectance[index], hard[index] = surface.reflectance, surface.hard
-    return reflectance[piece], hard[piece]
+        reflectance[index], drops_out[index] = surface.reflectance, surface.drops_out
+    return reflectance[piece], drops_out[piece]
 
 
 def _worst(states: list[NDArray[np.uint8]]) -> NDArray[np.uint8] | None:

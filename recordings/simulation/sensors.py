@@ -25,8 +25,8 @@ class Hits:
     distance: NDArray[np.float64]
     piece: NDArray[np.int64]
 
-    def before(self, other: "Hits") -> "Hits":
-        """The nearer of two hits per ray."""
+    def nearest(self, other: "Hits") -> "Hits":
+        """The nearer of the two hits of each ray."""
         nearer = self.distance <= other.distance
         return Hits(
             np.where(nearer, self.distance, other.distance),

@@ -25,7 +25,7 @@ _OFFSET = 0.015  # metres, largest random offset of a trial's start along each a
 RAMP = 0.25
 """Seconds of acceleration and of deceleration where there are ramps."""
 _LOST = 0.05  # share of the frames
-_JITTER, _MOST = 0.004, 0.015  # seconds: one sigma, and the largest
+_JITTER_SIGMA, _MAX_JITTER = 0.004, 0.015  # seconds
 
 
 def simulate(
@@ -42,7 +42,7 @@ def simulate(
     """Simulate one recording, frame by frame.
 
     Scenario, speed, trial and seed together seed one generator: the same four give the same
-    frames, bit by bit, and any others give other noise and another start.
+    frames, bit by bit; other values give different noise and a different start.
 
     Args:
         scenario: to play.
@@ -50,7 +50,7 @@ def simulate(
         trial: number of the trial, from 1.
         seed: of the random numbers, 0 or more.
         noise: model of the errors of readings.
-        imperfections: names of those that are switched on.
+        imperfections: names of the enabled ones.
         robot: the Panda that carries the sensors.
         rig: its sensors, on any of its links.
 
@@ -64,21 +64,21 @@ def simulate(
         raise ValueError(f"In {scenario.name} nothing moves; its speed is 0, got {speed}.")
     key = [seed, trial, round(speed * 1e6), *scenario.name.encode()]
     rng, streams = np.random.default_rng(key), Streams(key)
-    on = in_order(imperfections)
+    enabled = in_order(imperfections)
     offset = rng.uniform(-_OFFSET, _OFFSET, 3)
-    scene = Scene(scenario, speed, robot, offset, RAMP if "ramps" in on else 0.0)
-    sensing = Sensing(len(rig.sensors), rig.model, noise, on, rng, streams)
+    scene = Scene(scenario, speed, robot, offset, RAMP if "ramps" in enabled else 0.0)
+    sensing = Sensing(len(rig.sensors), rig.model, noise, enabled, rng, streams)
     rays = ZoneRays(rig)
     T_link_sensor = np.stack([sensor.T_link_sensor for sensor in rig.sensors])
     static = PieceCaster({index: piece.mesh for index, piece in enumerate(scene.static)})
     surfaces = {index: piece.surface for index, piece in enumerate(scene.static)}
-    for time, stamp, lost in _times(scene.duration, on, streams):
+    for time, stamp, lost in _times(scene.duration, enabled, streams):
         links = scene.own.link_poses(time)
         T_base_sensor = np.stack([links[s.link] for s in rig.sensors]) @ T_link_sensor
         bodies = dict(enumerate(scene.bodies(time), len(scene.static)))
         moving = PieceCaster({index: body.posed_mesh() for index, body in bodies.items()})
         bundle = rays.in_fixed(T_base_sensor)
-        hits = moving.cast(*bundle).before(static.cast(*bundle))
+        hits = moving.cast(*bundle).nearest(static.cast(*bundle))
         surfaces |= {index: body.surface for index, body in bodies.items()}
         edges = rays.edges(hits) if sensing.needs_edges else None
         report = sensing.report(rays.seen(hits), edges, surfaces)
@@ -101,14 +101,15 @@ def simulate(
 
 
 def _times(
-    duration: float, imperfections: Collection[str], streams: Streams
+    duration: float, enabled: Collection[str], streams: Streams
 ) -> Iterator[tuple[float, float, bool]]:
     """(time, stamp, whether it is lost) of each frame, in seconds from the start."""
-    jitter, loss = streams.of("stamp_jitter"), streams.of("dropped_frames")
+    jitter_rng, loss_rng = streams.of("stamp_jitter"), streams.of("dropped_frames")
     for k in range(int(duration * RATE) + 1):
-        early_or_late = float(np.clip(_JITTER * jitter.standard_normal(), -_MOST, _MOST))
-        lost = bool(loss.random() < _LOST) and "dropped_frames" in imperfections
-        stamp = k / RATE + (early_or_late if "stamp_jitter" in imperfections else 0.0)
+        normal = _JITTER_SIGMA * jitter_rng.standard_normal()
+        jitter = float(np.clip(normal, -_MAX_JITTER, _MAX_JITTER))
+        lost = bool(loss_rng.random() < _LOST) and "dropped_frames" in enabled
+        stamp = k / RATE + (jitter if "stamp_jitter" in enabled else 0.0)
         yield k / RATE, stamp, lost
 
 

@@ -16,37 +16,41 @@ def invalid_codes(shape: tuple[int, ...], rng: np.random.Generator) -> NDArray[n
 
 
 class Dropouts:
-    """Dropouts that persist over frames: a two-state Markov chain of validity for each zone.
+    """Dropouts that persist over frames: a two-state Markov chain (valid, invalid) for each zone.
 
-    Probabilities are measured from frame to frame on the centre of a wooden panel; on easy targets
-    readings were valid 99.9 % of the time.
+    Transition probabilities are measured on the centre of a wooden panel. Readings of other
+    targets were valid 99.9 % of the time.
 
     Args:
         rng: stream of random numbers.
     """
 
     STAYS_VALID, COMES_BACK = 0.943, 0.038
-    """Probabilities from frame to frame on hard surfaces: valid to valid, invalid to valid."""
-    EASY = 0.999
-    """Probability of being valid on easy surfaces."""
+    """Transition probabilities on surfaces that drop out: valid to valid, invalid to valid."""
+    OTHERWISE = 0.999
+    """Probability of being valid on other surfaces."""
 
     def __init__(self, rng: np.random.Generator) -> None:
         self._rng = rng
         self._valid: NDArray[np.bool_] | None = None
 
-    def next(self, hard: NDArray[np.bool_]) -> NDArray[np.uint8]:
-        """Status of the next frame, given which zones (S, rows, columns) see a hard surface.
+    def next(self, drops_out: NDArray[np.bool_]) -> NDArray[np.uint8]:
+        """Status of the next frame.
 
         The first frame is drawn from the stationary distribution.
+
+        Args:
+            drops_out: (S, rows, columns) whether a zone sees a surface that drops out.
         """
         if self._valid is None:
-            settled = self.COMES_BACK / (self.COMES_BACK + 1.0 - self.STAYS_VALID)
-            chance = np.where(hard, settled, self.EASY)
+            stationary = self.COMES_BACK / (self.COMES_BACK + 1.0 - self.STAYS_VALID)
+            chance = np.where(drops_out, stationary, self.OTHERWISE)
         else:
-            on_hard = np.where(self._valid, self.STAYS_VALID, self.COMES_BACK)
-            chance = np.where(hard, on_hard, self.EASY)
-        self._valid = self._rng.random(hard.shape) < chance
-        return np.where(self._valid, VALID, invalid_codes(hard.shape, self._rng)).astype(np.uint8)
+            transition = np.where(self._valid, self.STAYS_VALID, self.COMES_BACK)
+            chance = np.where(drops_out, transition, self.OTHERWISE)
+        shape = drops_out.shape
+        self._valid = self._rng.random(shape) < chance
+        return np.where(self._valid, VALID, invalid_codes(shape, self._rng)).astype(np.uint8)
 
 
 class FlyingPixels:

@@ -9,11 +9,11 @@ class Surface:
 
     Attributes:
         reflectance: at 940 nm; the datasheet's white is 0.88 and its grey 0.17.
-        hard: whether readings of it drop out, as measured on wooden panels.
+        drops_out: whether readings of it drop out often, as measured on wooden panels.
     """
 
     reflectance: float
-    hard: bool = False
+    drops_out: bool = False
 
 
 PLASTIC = Surface(0.6)
@@ -21,5 +21,5 @@ CLOTH = Surface(0.4)
 PAINT = Surface(0.8)
 CARDBOARD = Surface(0.5)
 STEEL = Surface(0.4)
-WOOD = Surface(0.5, hard=True)
-SCREEN = Surface(0.1, hard=True)
+WOOD = Surface(0.5, drops_out=True)
+SCREEN = Surface(0.1, drops_out=True)

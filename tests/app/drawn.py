@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 
 
 def points(client, node):

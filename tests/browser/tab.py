@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from playwright.sync_api import BrowserContext, Locator, Page, ViewportSize
 
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 
 _POINTS = """name => {
   const node = window.__viserSceneTree.getState()[name];

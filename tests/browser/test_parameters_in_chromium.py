@@ -1,4 +1,4 @@
-"""Undo, presets and files of parameters in a real Chromium."""
+"""Undo, presets and parameter files in a real Chromium."""
 
 import json
 from pathlib import Path

@@ -4,7 +4,7 @@ import numpy as np
 from PIL import Image
 
 from app.scene.palettes import COLOUR_BLIND, PAPER, palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from tests.browser.tab import Tab
 
 _CAMERA = """() => {

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from estimator.icp import register
+from estimator.icp import align
 from tests.estimator.scenes import corner
 
 
@@ -51,7 +51,7 @@ def test_a_plain_implementation_finds_the_same(seed):
     target = turned + rng.normal(size=3) * 0.03 + rng.normal(size=source.shape) * 0.005
     target = target[rng.permutation(len(target))[:120]]
 
-    found = register(source, target, 0.1)
+    found = align(source, target, 0.1)
     T, fitness, rmse, pairs = plain_icp(source, target, 0.1)
     assert found.transformation == pytest.approx(T, abs=1e-9)
     assert found.fitness == pytest.approx(fitness)
@@ -67,7 +67,7 @@ def test_a_translated_shape_gives_that_translation(length, seed):
     source = corner(rng)
     direction = rng.normal(size=3)
     displacement = length * direction / np.linalg.norm(direction)
-    found = register(source, source + displacement, 0.1)
+    found = align(source, source + displacement, 0.1)
     assert found.transformation[:3, :3] == pytest.approx(np.eye(3), abs=1e-6)
     assert found.transformation[:3, 3] == pytest.approx(displacement, abs=1e-6)
     assert found.fitness == 1.0
@@ -80,7 +80,7 @@ def test_it_takes_the_source_onto_the_target_and_not_back():
     source = corner(rng)
     R, t = Rotation.from_euler("xyz", [3, -2, 4], degrees=True), np.array([0.02, -0.01, 0.03])
     target = R.apply(source) + t
-    found = register(source, target, 0.1)
+    found = align(source, target, 0.1)
     assert found.transformation[:3, :3] == pytest.approx(R.as_matrix(), abs=1e-6)
     assert found.transformation[:3, 3] == pytest.approx(t, abs=1e-6)
 
@@ -89,13 +89,13 @@ def test_fitness_counts_source_points():
     near = corner(np.random.default_rng(0), 30)
     far = near[:10] + 5.0
     more_source, more_target = np.vstack([near, far]), np.vstack([near, far, far + 1.0])
-    assert register(more_source, near, 0.1).fitness == 0.75
-    assert register(near, more_target, 0.1).fitness == 1.0
+    assert align(more_source, near, 0.1).fitness == 0.75
+    assert align(near, more_target, 0.1).fitness == 1.0
 
 
 def test_out_of_reach_nothing_is_paired_and_nothing_moves():
     source = corner(np.random.default_rng(0))
-    found = register(source, source + 10.0, 0.1)
+    found = align(source, source + 10.0, 0.1)
     assert found.fitness == 0.0
     assert found.transformation.tolist() == np.eye(4).tolist()
     assert found.inlier_source.shape == found.inlier_target.shape == (0,)
@@ -106,8 +106,8 @@ def test_reach_bounds_the_distance_of_a_pair():
     lattice = np.stack(np.meshgrid(*[np.arange(4.0)] * 3), axis=-1).reshape(-1, 3)
     target = lattice.copy()
     target[:8] += (0.0, 0.0, 0.2)
-    inside = register(lattice, target, 0.25)
+    inside = align(lattice, target, 0.25)
     assert inside.fitness == 1.0
-    outside = register(lattice, target, 0.15)
+    outside = align(lattice, target, 0.15)
     assert outside.fitness == 56 / 64
     assert outside.transformation == pytest.approx(np.eye(4), abs=1e-12)

@@ -64,7 +64,7 @@ def clusterings(monkeypatch):
 
 @pytest.fixture
 def icps(monkeypatch):
-    return counted(monkeypatch, estimator.rounds, "register")
+    return counted(monkeypatch, estimator.rounds, "align")
 
 
 def pair_of(seed: int) -> Window:

@@ -118,7 +118,7 @@ def test_intrinsics_for_another_size_are_said_and_not_used(tmp_path: Path):
     with open_recording(file.write(tmp_path / "x.mcap")) as recording:
         assert recording.warnings == (
             "/eye/camera_info is for images of 8 x 8 zones and those of /eye/image are 4 x 4; "
-            "a field of view of 45 degrees is taken.",
+            "a field of view of 45 degrees is assumed.",
         )
         assert recording.cloud(1).points[15, 0] == pytest.approx(1.5 * 0.75 * np.tan(np.pi / 8))
 

@@ -64,7 +64,7 @@ def test_its_links_are_the_pandas(rig):
     robot = load_robot()
     rig.check_links(robot.links, robot.name)
     with pytest.raises(
-        RigError, match=r"fixes sensor base/0 to link panda_link0, which .* has not"
+        RigError, match=r"fixes sensor base/0 to link panda_link0, which .* does not have"
     ):
         rig.check_links(("other",), "stick")
 

@@ -22,9 +22,9 @@ _METHOD_FLAG = "--method"
 
 
 def register_method_files(arguments: Sequence[str]) -> None:
-    """Register methods that follow --method as FILE.py:NAME, before flags are made of parameters.
+    """Register the methods given as --method FILE.py:NAME, so that their parameters become flags.
 
-    A file that cannot be used is left to the flag itself, whose error says where it was given.
+    Files that cannot be used are ignored here; parsing --method reports them.
     """
     after_flag = False
     for argument in arguments:
@@ -39,7 +39,7 @@ def register_method_files(arguments: Sequence[str]) -> None:
 
 
 def method_name(text: str) -> str:
-    """The registered method that --method says by its name or as FILE.py:NAME.
+    """Name of the registered method that --method gives by its name or as FILE.py:NAME.
 
     Raises:
         ArgumentTypeError: the file cannot be used.
@@ -55,18 +55,18 @@ def method_name(text: str) -> str:
 def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[str] = ()) -> None:
     """Add --parameters FILE, and a flag for every parameter, named like it.
 
-    Parameters of a method's own are flags that begin with its name.
+    Flags of a method's own parameters begin with the method's name.
 
     Args:
         parser: of a subcommand.
-        leave_out: parameters that the subcommand has a flag of its own for.
+        leave_out: parameters for which the subcommand defines its own flag.
     """
     group = parser.add_argument_group("parameters of the estimator")
     group.add_argument(
         "--parameters",
         type=Path,
         metavar="FILE",
-        help="parameters as the app saves them (JSON); flags beside it win",
+        help="parameters as the app saves them (JSON); other flags take precedence",
     )
     for name, info in PARAMETER_INFO.items():
         if name == "method" and name not in leave_out:
@@ -87,13 +87,13 @@ def add_parameter_flags(parser: argparse.ArgumentParser, leave_out: Collection[s
                 _add_flag(group, name, info)
             except argparse.ArgumentError as error:
                 raise MethodError(
-                    f"Method {method.name} cannot have the flag {flag_of(name)}: it is another's "
-                    "already; rename the method or its parameter."
+                    f"Method {method.name} cannot have the flag {flag_of(name)}, which is already "
+                    "in use; rename the method or its parameter."
                 ) from error
 
 
 def parameters_from(options: argparse.Namespace) -> Parameters:
-    """Collect file and flags.
+    """Parameters from --parameters and from the flags, which take precedence.
 
     Raises:
         ParameterError: a flag is out of range.
@@ -105,7 +105,7 @@ def parameters_from(options: argparse.Namespace) -> Parameters:
 
 
 def _add_flag(group: argparse._ArgumentGroup, name: str, info: ParameterInfo) -> None:
-    # Only flags that are given are set, so that they can win over a file.
+    # Only given flags are set: defaults must not override the file.
     flag, text, unset = flag_of(name), _help(info), argparse.SUPPRESS
     if info.kind is bool:
         action = argparse.BooleanOptionalAction

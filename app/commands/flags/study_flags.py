@@ -4,16 +4,13 @@ import argparse
 import os
 from pathlib import Path
 
-from app.commands.flags.simulation_flags import MAX_SPEED
+from app.commands.flags.simulation_flags import ALL, MAX_SPEED, MORE
 from app.study.plan import ABLATION_SPEED
 from recordings.simulation import IMPERFECTIONS, NOISE_MODELS, PAPER_SCENARIOS, SCENARIOS
 
-ALL, MORE = "all", "more"
-"""Groups of scenarios: the paper's, and the others."""
-
 
 def add_source_flags(parser: argparse.ArgumentParser) -> None:
-    """Add --recordings, and what is simulated without."""
+    """Add --recordings, and the flags of the simulation that replaces them."""
     group = parser.add_argument_group("what is studied")
     group.add_argument(
         "--recordings",
@@ -25,7 +22,7 @@ def add_source_flags(parser: argparse.ArgumentParser) -> None:
             "scenario of the paper, speed and trial enter its tables, every one gets its own line"
         ),
     )
-    # Only flags that are given are set: they make no sense beside --recordings.
+    # Only given flags are set: with --recordings none of them is allowed.
     unset = argparse.SUPPRESS
     group.add_argument(
         "--scenario",

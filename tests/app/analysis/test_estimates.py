@@ -111,7 +111,7 @@ def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatc
     for name in ("cloud", "pair_truth", "link_poses"):
         real = getattr(fake, name)
         setattr(fake, name, lambda *a, real=real: read.append(a) or real(*a))
-    for module, name in ((sklearn.cluster, "HDBSCAN"), (estimator.rounds, "register")):
+    for module, name in ((sklearn.cluster, "HDBSCAN"), (estimator.rounds, "align")):
         real = getattr(module, name)
         monkeypatch.setattr(module, name, lambda *a, real=real, **k: ran.append(a) or real(*a, **k))
     estimates, opened = Estimates(), fake_opened(fake)

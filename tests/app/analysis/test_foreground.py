@@ -12,7 +12,7 @@ def waits(foreground: Foreground, seconds: float) -> float:
     return time.monotonic() - begin
 
 
-def test_where_nobody_works_nobody_waits():
+def test_without_foreground_work_there_is_no_wait():
     assert waits(Foreground(), 5.0) < 1.0
 
 

@@ -62,7 +62,7 @@ def test_a_tracker_begins_anew_for_each_segment_its_warm_up_early(tracked, recor
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_frames_flow_is_the_same_whoever_asked_before(tracked, recording, seed):
+def test_a_frames_flow_does_not_depend_on_earlier_requests(tracked, recording, seed):
     expected = {k: told(flow) for k, flow in flows(recording, tracked)}
     estimator = PairEstimator(tracked)
     for k in np.random.default_rng(seed).permutation(np.arange(N, FRAMES))[:40].tolist():

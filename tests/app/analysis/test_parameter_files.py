@@ -68,7 +68,9 @@ def test_files_that_cannot_be_read_are_one_sentence(tmp_path: Path):
     with pytest.raises(InputError, match=r"cannot be read as parameters \(Is a directory\)\.$"):
         load(tmp_path)
     (tmp_path / "bytes").write_bytes(b"\xff\xfe")
-    with pytest.raises(InputError, match=r"bytes is no text, and so no file of parameters\.$"):
+    with pytest.raises(
+        InputError, match=r"bytes is not a text file, so it cannot be a parameter file\.$"
+    ):
         load(tmp_path / "bytes")
 
 
@@ -76,5 +78,5 @@ def test_a_file_that_is_too_large_is_not_read_to_its_end(tmp_path: Path):
     path = tmp_path / "recording.mcap"
     with path.open("wb") as file:
         file.truncate(100_000_000_000)  # a hole, which takes no place
-    with pytest.raises(InputError, match=r"mcap has more than 10 MB, too many to be read as JSON"):
+    with pytest.raises(InputError, match=r"mcap has more than 10 MB, too much to be read as JSON"):
         load(path)

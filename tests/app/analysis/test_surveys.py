@@ -80,7 +80,7 @@ def test_the_next_question_takes_the_place_of_the_last(runs):
     assert runs.count(Parameters()) < FRAMES - 8
 
 
-def test_whoever_leaves_is_told_nothing_more():
+def test_a_cancelled_request_gets_no_more_notifications():
     surveys, listener = Surveys(Estimates()), Listener()
     surveys.request("me", fake_opened(), Parameters(), listener)
     until(lambda: listener.told)
@@ -98,7 +98,7 @@ def test_two_who_ask_share_the_work(runs):
     assert len(runs) == FRAMES - 8
 
 
-def test_it_stands_back_while_somebody_waits_for_an_estimate():
+def test_it_pauses_while_foreground_work_runs():
     estimates, listener = Estimates(), Listener()
     surveys = Surveys(estimates)
     with estimates.foreground:

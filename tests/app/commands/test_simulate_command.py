@@ -120,7 +120,7 @@ def test_a_rig_that_cannot_be_used_is_one_sentence_and_nothing_is_made(
     rig = tmp_path / "mine.toml"
     for wrong, said in [
         (("rows = 4", "rows = 1"), "sensor_model.rows must be a whole number from 2 to 64, got 1."),
-        (("panda_hand", "wheel"), "fixes sensor right to link wheel, which the robot panda has"),
+        (("panda_hand", "wheel"), "fixes sensor right to link wheel, which the robot panda does"),
         (("[[sensors]]", "[[sensor]]"), "sensor is not a known key"),
     ]:
         rig.write_text(COARSE_RIG.replace(*wrong))

@@ -50,7 +50,7 @@ class Study:
         return ended.stdout
 
     def kept(self) -> dict[Path, int]:
-        """When each of the results was written, in nanoseconds."""
+        """{result file: time of its last change in nanoseconds}."""
         return {path: path.stat().st_mtime_ns for path in self.results.glob("*.json")}
 
 

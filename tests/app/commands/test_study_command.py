@@ -139,7 +139,7 @@ def test_a_result_that_cannot_be_kept_does_not_end_the_study(
     monkeypatch.setattr("os.replace", full)
     assert study(tmp_path / "out", "--recordings", str(room.path), "--sweep") == 0
     said = capsys.readouterr().err.splitlines()
-    assert [line.partition(":")[0] for line in said] == ["Not kept for another time"]
+    assert [line.partition(":")[0] for line in said] == ["Result not stored for later runs"]
     assert said[0].endswith("cannot be written: No space left on device.")
     assert "room" in (tmp_path / "out" / "tables" / "recordings.csv").read_text()
 

@@ -146,7 +146,7 @@ def test_a_file_is_opened_also_beyond_the_sliders(session, client):
     [
         (b"{", "p.json is not JSON"),
         (b'{"gamma": 7}', "gamma must be between 0 and 1"),
-        (b"\xff\xfe", "p.json is no text"),
+        (b"\xff\xfe", "p.json is not a text file"),
         (b" " * 200_000, "p.json is too large"),
     ],
 )

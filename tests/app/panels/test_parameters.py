@@ -27,17 +27,17 @@ def test_a_refused_value_stays_until_another_is_taken(client):
     assert not refusal_seen(client)
 
 
-def test_what_the_browser_put_back_shows_what_is_in_use_and_the_reason_is_readable(client):
+def test_what_the_browser_clamped_shows_what_is_in_use_and_the_reason_is_readable(client):
     panel = ParametersPanel(context(client))
     client.change("γ", 9.0)
     panel.announce(status(refusals={"gamma": Refusal(REASON)}))
     client.change("γ", 1.0)
-    put_back = status(refusals={"gamma": Refusal(REASON, put_back=True)})
-    panel.announce(put_back)
+    clamped = status(refusals={"gamma": Refusal(REASON, clamped=True)})
+    panel.announce(clamped)
     assert client.control("γ").value == 0.7
     assert refusal_seen(client)
     panel._readable_until = 0.0
-    panel.announce(put_back)
+    panel.announce(clamped)
     assert not refusal_seen(client)
 
 

@@ -2,7 +2,7 @@ import numpy as np
 
 from app.scene.clouds_view import CloudsView, arrows
 from app.scene.palettes import PAPER, palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 
 PALETTE = palette(PAPER, dark=False)
 GREEN = np.array([[0, 130, 45], [0, 131, 46]], dtype=np.uint8)

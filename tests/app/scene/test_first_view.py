@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.scene.first_view import first_view
-from app.scene.stage import upright
+from app.scene.scene_root import upright
 
 FOV = np.radians(50)
 ASPECT = 1.3

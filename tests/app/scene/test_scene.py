@@ -8,6 +8,7 @@ from app.scene.camera import Camera
 from app.scene.clouds_view import FLOW_NODE, GHOST_NODE, SOURCE_NODE, TARGET_NODE
 from app.scene.palettes import COLOUR_BLIND, PAPER, palette
 from app.scene.scene import Scene
+from app.scene.scene_root import FIXED, GRID
 from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
@@ -16,7 +17,6 @@ from app.scene.settings import (
     STATIONARY,
     ViewSettings,
 )
-from app.scene.stage import FIXED, GRID
 from estimator import Label, Parameters
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from app.scene.scene_root import FIXED
 from app.scene.sensors_view import SensorsView, half_extents
-from app.scene.stage import FIXED
 from robot_assets import SensorModel, load_rig
 from tests.app.fake_recordings import fake_recording
 

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from app.server.session import Session
 from estimator import Parameters
 from tests.app.drawn import arrow_count, points

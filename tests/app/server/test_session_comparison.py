@@ -8,7 +8,7 @@ from PIL import Image
 
 from app.analysis.parameter_files import from_text
 from app.scene.palettes import PAPER, palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from estimator import Parameters
 from tests.app.drawn import arrow_count, points
 from tests.app.waiting import until

@@ -10,7 +10,7 @@ from PIL import Image
 
 from app.analysis.parameter_files import from_text
 from app.scene.palettes import PAPER, palette
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from app.server.session import Session
 from estimator import Parameters
 from tests.app.drawn import points

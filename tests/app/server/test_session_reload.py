@@ -7,7 +7,7 @@ import pytest
 from viser._messages import RunJavascriptMessage, ThemeConfigurationMessage
 
 from app.scene.camera import Camera
-from app.scene.stage import FIXED
+from app.scene.scene_root import FIXED
 from app.server.session import Session
 from app.session.links import SavedSession, from_token
 from estimator import Parameters

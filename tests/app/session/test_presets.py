@@ -55,7 +55,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path):
 def test_the_folder_is_the_users(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     assert preset_folder() == tmp_path / "tofscope" / "presets"
-    monkeypatch.setenv("HOME", "/somebody")
+    monkeypatch.setenv("HOME", "/home/a")
     for value in ("", "relative"):
         monkeypatch.setenv("XDG_CONFIG_HOME", value)
-        assert str(preset_folder()) == "/somebody/.config/tofscope/presets"
+        assert str(preset_folder()) == "/home/a/.config/tofscope/presets"

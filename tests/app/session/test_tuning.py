@@ -40,7 +40,7 @@ def test_an_end_of_a_slider_after_a_refusal_is_no_entry_and_the_reason_stays():
     edited.enter({"gamma": 9.0}, (), now=0.0)
     edited.enter({"gamma": 1.0}, {"gamma"}, now=1.0)
     assert edited.parameters.gamma == 0.7
-    assert edited.refusals == {"gamma": Refusal(NO_GAMMA, put_back=True)}
+    assert edited.refusals == {"gamma": Refusal(NO_GAMMA, clamped=True)}
     # The person goes there on purpose now.
     edited.enter({"gamma": 1.0}, {"gamma"}, now=2.0)
     assert edited.parameters.gamma == 1.0

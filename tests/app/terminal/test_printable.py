@@ -11,7 +11,7 @@ from app.terminal.printable import printable
         ("two\nlines\r\t", r"two\nlines\r\t"),
         ("\x9b2J", r"\x9b2J"),
         ("gpj\u202etxt", r"gpj\u202etxt"),
-        ("\udcff.mcap", r"\udcff.mcap"),  # how Python gives a name that is no text
+        ("\udcff.mcap", r"\udcff.mcap"),  # surrogate escape: a name that is not UTF-8
     ],
 )
 def test_what_a_terminal_would_obey_is_an_escape(text: str, said: str):

@@ -1,9 +1,13 @@
 import pytest
 
-from app.terminal.tables import Column, plain, show, table_of
+from app.terminal.tables import ColumnStyle, plain, show, table_of
 from tests.app.terminal.screen import Screen
 
-COLUMNS = (Column(["name"]), Column(["mean", "m/s"], right=True), Column(["said"], wraps=True))
+COLUMNS = (
+    ColumnStyle(["name"]),
+    ColumnStyle(["mean", "m/s"], right=True),
+    ColumnStyle(["said"], wraps=True),
+)
 LONG = "word " * 60
 ROWS = [["a", "1.25", "short"], ["表 [red]b[/red] :smile:", "10.5", LONG], ["x\x1b[31m\n", "7", ""]]
 
@@ -31,7 +35,9 @@ def test_where_there_is_no_terminal_lines_are_plain_and_whole(
 
 
 def test_plain_lines_have_no_blanks_at_their_ends():
-    assert plain(table_of((Column(["a"]), Column(["b"])), [["", ""], ["1", ""]])).split("\n") == [
+    assert plain(table_of((ColumnStyle(["a"]), ColumnStyle(["b"])), [["", ""], ["1", ""]])).split(
+        "\n"
+    ) == [
         "a  b",
         "",
         "1",

@@ -11,7 +11,7 @@ from recordings.simulation.surface import Surface
 from robot_assets import SensorModel
 
 SENSORS = 300
-WHITE, GREY, WOOD = Surface(0.88), Surface(0.17), Surface(0.88, hard=True)
+WHITE, GREY, WOOD = Surface(0.88), Surface(0.17), Surface(0.88, drops_out=True)
 
 
 def sensing(noise: str, imperfections: Collection[str] = ()) -> Sensing:

@@ -14,10 +14,10 @@ def test_codes_are_as_frequent_as_they_were_seen():
     assert sum(shares) == pytest.approx(1.0)
 
 
-def test_readings_of_hard_surfaces_drop_out_and_stay_out():
+def test_readings_of_surfaces_that_drop_out_stay_out():
     dropouts = Dropouts(np.random.default_rng(0))
-    hard = np.ones(SHAPE, dtype=bool)
-    valid = np.stack([dropouts.next(hard) == VALID for _ in range(12)])
+    wood = np.ones(SHAPE, dtype=bool)
+    valid = np.stack([dropouts.next(wood) == VALID for _ in range(12)])
     before, after = valid[:-1], valid[1:]
     assert after[before].mean() == pytest.approx(0.943, abs=0.003)
     assert after[~before].mean() == pytest.approx(0.038, abs=0.003)
@@ -25,14 +25,14 @@ def test_readings_of_hard_surfaces_drop_out_and_stay_out():
     assert valid.mean(axis=(1, 2, 3)) == pytest.approx(np.full(12, 0.4), abs=0.02)
 
 
-def test_readings_of_easy_surfaces_hardly_ever_drop_out():
+def test_readings_of_other_surfaces_hardly_ever_drop_out():
     dropouts = Dropouts(np.random.default_rng(0))
-    easy = np.zeros(SHAPE, dtype=bool)
-    valid = np.stack([dropouts.next(easy) == VALID for _ in range(12)])
+    other = np.zeros(SHAPE, dtype=bool)
+    valid = np.stack([dropouts.next(other) == VALID for _ in range(12)])
     assert valid.mean() == pytest.approx(0.999, abs=0.0005)
 
 
-def test_a_zone_that_comes_to_see_something_easy_is_valid_again():
+def test_a_zone_that_comes_to_see_another_surface_is_valid_again():
     dropouts = Dropouts(np.random.default_rng(0))
     assert (dropouts.next(np.ones(SHAPE, dtype=bool)) == VALID).mean() < 0.5
     assert (dropouts.next(np.zeros(SHAPE, dtype=bool)) == VALID).mean() > 0.99

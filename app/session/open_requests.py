@@ -6,7 +6,7 @@ from app.analysis.library import Entry, Library, Opened
 from app.errors import InputError, UserError
 
 
-class Opening:
+class OpenRequests:
     """Requested recordings, tried in turn until one opens.
 
     Args:

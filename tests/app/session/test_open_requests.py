@@ -5,7 +5,7 @@ import pytest
 
 from app.analysis.library import Entry
 from app.errors import InputError
-from app.session.opening import Opening
+from app.session.open_requests import OpenRequests
 from recordings import RecordingError
 
 ENTRIES = [Entry(label, Path(f"/nowhere/{label}.mcap")) for label in ("a", "bad", "worse", "odd")]
@@ -20,9 +20,9 @@ class Library:
         return entry
 
 
-def opening(*labels: str) -> Opening:
+def opening(*labels: str) -> OpenRequests:
     library: Any = Library()
-    made = Opening(library, ENTRIES)
+    made = OpenRequests(library, ENTRIES)
     made.request(labels)
     return made
 

@@ -16,7 +16,7 @@ GRID = "/grid"
 AXES = f"{FIXED}/axes"
 
 
-class Stage:
+class SceneRoot:
     """Lights, a grid, and the fixed frame with its axes."""
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
