@@ -44,14 +44,18 @@ def background(tab: Tab) -> tuple[float, float]:
     return max(free, key=lambda place: np.linalg.norm(taken - place, axis=1).min())
 
 
+def point_set(points: NDArray[np.float64]) -> set[tuple[float, ...]]:
+    return {tuple(point) for point in points.tolist()}
+
+
 def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
     moving = tab.arrows()[:, 0]
     tab.page.get_by_text("Explain", exact=True).click()
     tab.page.mouse.click(*pixel(tab, moving[len(moving) // 2]))
     tab.until(lambda: tab.has_text("Moving: fitness"))
-    picked = {tuple(point) for point in tab.points("picked/points")}
-    assert {tuple(point) for point in moving} <= picked
-    assert not picked & {tuple(point) for point in tab.points("source")}, "they are drawn twice"
+    tab.until(lambda: point_set(moving) <= point_set(tab.points("picked/points")))
+    # None is drawn twice.
+    tab.until(lambda: not point_set(tab.points("picked/points")) & point_set(tab.points("source")))
     tab.page.mouse.click(*background(tab))
     tab.until(lambda: not tab.has_text("Moving: fitness"))
 
@@ -72,10 +76,11 @@ def test_a_click_on_a_row_of_the_table_picks_its_cluster_and_another_lets_it_go(
     row = tab.page.locator("tr[data-sets]", has_text="moving")
     row.click()
     tab.until(lambda: tab.has_text("Moving: fitness"))
-    assert {tuple(p) for p in tab.arrows()[:, 0]} <= {tuple(p) for p in tab.points("picked/points")}
+    tab.until(lambda: point_set(tab.arrows()[:, 0]) <= point_set(tab.points("picked/points")))
     row.click()
     tab.until(lambda: not tab.has_text("Moving: fitness"))
-    assert tab.row("Cluster").locator("input").first.input_value() == "none"
+    cluster = tab.row("Cluster").locator("input").first
+    tab.until(lambda: cluster.input_value() == "none")
 
 
 def test_turning_the_camera_picks_nothing(tab: Tab):

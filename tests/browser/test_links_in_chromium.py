@@ -38,9 +38,8 @@ def test_a_link_leads_another_tab_to_the_same_place(
     assert link.startswith(f"{server.address}/?link=")
 
     other = Tab(context, link)
-    assert other.has_text("Simulated: sideways")
-    assert other.value("n") == 6
-    assert other.value("Frame") == frame
+    other.until(lambda: other.has_text("Simulated: sideways"))
+    other.until(lambda: other.value("n") == 6 and other.value("Frame") == frame)
     other.page.wait_for_timeout(1500)
     np.testing.assert_allclose(camera(other), seen, atol=0.01)
     # A reload comes back to what was shown last, and not to the link.
@@ -58,7 +57,7 @@ def test_a_reload_keeps_camera_and_view(tab: Tab):
     tab.page.reload()
     tab.page.get_by_text("Colours, sizes, layers").click()
     tab.until(lambda: tab.has_text("Moving") and len(tab.arrows()) > 0)
-    assert tab.value("Arrow scale") == scale
+    tab.until(lambda: tab.value("Arrow scale") == scale)
     tab.page.wait_for_timeout(1500)
     np.testing.assert_allclose(camera(tab), seen, atol=0.01)
 

@@ -92,8 +92,7 @@ def test_a_number_that_is_left_empty_comes_back(tab: Tab):
     number.focus()
     number.fill("")
     number.blur()
-    tab.until(lambda: number.input_value() == "60")
-    assert tab.value("N_min") == 60
+    tab.until(lambda: number.input_value() == "60" and tab.value("N_min") == 60)
 
 
 _FLOOD = """([slider, keys]) => new Promise(done => {
