@@ -9,14 +9,14 @@ STAMP := .venv/.set-up
 run: setup
 	@$(BIN)/tofscope view $(ARGS)
 
-# Lint, format, types, tests.
+# Lint, format, types, tests. Bytecode is kept, since many tests start the command anew.
 test: setup
 	@command -v chromium > /dev/null || \
 		tools/install_system_packages.sh "The tests of the app drive a browser" chromium
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/pyright
-	OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --no-loadscope-reorder
+	PYTHONDONTWRITEBYTECODE= OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --no-loadscope-reorder
 
 # Everything that run and test need; skipped while nothing has changed.
 setup: $(STAMP)
