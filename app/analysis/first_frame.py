@@ -8,6 +8,7 @@ import numpy as np
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import counting_pairs
 from app.analysis.library import Opened
+from app.errors import UserError
 from estimator import Parameters
 from recordings import Recording
 
@@ -33,6 +34,8 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
     for frame in tried:
         try:
             pair = estimates.estimated(opened, frame, parameters)
+        except UserError:
+            continue  # said once the frame is shown
         except Exception:
             _LOG.exception("%s: frame %d cannot be estimated", opened.recording.name, frame)
             continue

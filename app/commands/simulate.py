@@ -27,7 +27,6 @@ from recordings.simulation import (
 from robot_assets import load_rig, load_robot
 
 _ENDING = ".mcap"
-
 _ONE_TRIAL = 1
 
 
