@@ -60,6 +60,23 @@ const waiting = setInterval(() => {
 """Script of an offline page that prevents a flash: when viser's player restarts or seeks, it shows
 its default lights until the next image, unless queued messages are applied at once."""
 
+PAUSE_TO_TYPE = f"""<script>
+document.addEventListener("focusin", event => {{
+  if (!event.target.matches("{NUMBER_INPUT}")) return;
+  document.querySelector("svg.tabler-icon-player-pause-filled")?.closest("button").click();
+}});
+const leave = event => {{
+  const field = document.activeElement;
+  if (field?.matches("{NUMBER_INPUT}") && (event.key ? event.key === " " : event.target !== field))
+    field.blur();
+}};
+document.addEventListener("keydown", leave, true);
+document.addEventListener("pointerdown", leave, true);
+</script>"""
+"""Script of an offline page that pauses when its time field gets the focus, and takes the focus
+away where it is played on: viser's player writes the current time into the field 120 times a
+second, in between what is being typed."""
+
 SEND_AT_ONCE = """
 if (!window.tofscopeSends) {
   window.tofscopeSends = true;

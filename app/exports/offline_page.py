@@ -9,7 +9,7 @@ from app.analysis.comparison import Comparison
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.browser.guarded_server import GuardedServer
-from app.browser.internals import NO_FLASH, PAGE_TITLE
+from app.browser.internals import NO_FLASH, PAGE_TITLE, PAUSE_TO_TYPE
 from app.errors import InputError
 from app.exports.captions import caption
 from app.scene.camera import Camera
@@ -97,7 +97,8 @@ def offline_page(
     sides = comparison.drawn(parameters) if comparison else {}
     texts = dict(caption(recording, parameters, None, sides))
     texts["Frames"] = f"{frames[0]} to {frames[-1]} of {len(recording) - 1}"
-    added = _LEGEND_STYLE + html(legend) + _about(title, texts, dark=settings.dark) + NO_FLASH
+    added = _LEGEND_STYLE + html(legend) + _about(title, texts, dark=settings.dark)
+    added += NO_FLASH + PAUSE_TO_TYPE
     return page[:end] + added + page[end:]
 
 

@@ -76,6 +76,11 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
         return len(shown) > 5
 
     until(page, plays)
+    clock.focus()  # to type there, for which it stands still
+    page.wait_for_timeout(300)
+    held = clock.input_value()
+    page.wait_for_timeout(500)
+    assert clock.input_value() == held
     clock.fill("1.4")  # where the object moves
     until(page, lambda: nodes(page)["/fixed/flow"] > 60)
     seen = nodes(page)
