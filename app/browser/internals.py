@@ -42,6 +42,10 @@ SLIDER_OR_TAB = "[role=slider], [role=tab]"
 STORAGE_PREFIX = "viser-user:"
 """Prefix of the browser storage keys that viser lets Python read and remove."""
 
+FULL_RESOLUTION = "?fixedDpr=1"
+"""Query of viser's page that keeps one pixel per CSS pixel. Otherwise a page that draws slowly goes
+down to three quarters, and its pictures are enlarged from that."""
+
 PAGE_TITLE = "<title>Viser</title>"
 """Title in viser's page, which an offline page replaces."""
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from app.analysis.library import Opened
 from app.analysis.pairs import Pair
 from app.browser.guarded_server import GuardedServer
+from app.browser.internals import FULL_RESOLUTION
 from app.errors import InputError
 from app.exports.captions import caption
 from app.exports.chromium import headless_page
@@ -72,7 +73,7 @@ def picture(
             clients.append(client)
             arrived.set()
 
-        address = f"http://127.0.0.1:{server.get_port()}"
+        address = f"http://127.0.0.1:{server.get_port()}/{FULL_RESOLUTION}"
         # The page sizes points for its window, which is therefore as large as the picture.
         with headless_page(address, layout.width, layout.height):
             if not arrived.wait(_TIMEOUT):

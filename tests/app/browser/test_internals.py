@@ -161,6 +161,11 @@ def test_the_player_of_an_offline_page_can_be_kept_from_flashing():
     in_page(*names, why="offline pages flash where they begin again (NO_FLASH)")
 
 
+def test_a_page_can_be_kept_at_full_resolution():
+    name = internals.FULL_RESOLUTION.strip("?").partition("=")[0]
+    in_page(name, why="pictures of slow machines are blurred (FULL_RESOLUTION)")
+
+
 def test_the_player_of_an_offline_page_has_a_pause_button_that_can_be_found():
     assert "tabler-icon-player-pause-filled" in internals.PAUSE_TO_TYPE
     in_page("player-pause-filled", why="typing a time does not pause (PAUSE_TO_TYPE)")
