@@ -1,6 +1,8 @@
 """Writer of recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 
@@ -51,14 +53,17 @@ class RecordingWriter:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._stamps: dict[str, list[int]] = {}
-        try:
+        with self._in_words():
             self._stream = self._part.open("wb")
-        except OSError as error:
-            raise RecordingError(f"{path} cannot be written: {error.strerror}.") from error
         self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
-        self._writer.start(profile="ros2", library="tofscope")
-        self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
-        self._writer.add_attachment(0, 0, RIG_ATTACHMENT, RIG_TYPE, packed(rig))
+        try:
+            with self._in_words():
+                self._writer.start(profile="ros2", library="tofscope")
+                self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
+                self._writer.add_attachment(0, 0, RIG_ATTACHMENT, RIG_TYPE, packed(rig))
+        except BaseException:
+            self._discard()
+            raise
 
     def __enter__(self) -> "RecordingWriter":
         return self
@@ -69,17 +74,42 @@ class RecordingWriter:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        if kind is None:
-            self._writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(self._stamps))
-            self._writer.finish()
-        self._stream.close()
-        if kind is None:
-            os.replace(self._part, self._path)
-        else:
-            self._part.unlink(missing_ok=True)
+        try:
+            if kind is None:
+                with self._in_words():
+                    self._writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(self._stamps))
+                    self._writer.finish()
+                    self._stream.flush()
+                    os.fsync(self._stream.fileno())  # some disks tell only now that they are full
+                    self._stream.close()
+                    os.replace(self._part, self._path)
+        finally:
+            self._discard()
 
     def write(self, frame: Frame) -> None:
-        """Append a frame; stamps must increase."""
+        """Append a frame; stamps must increase.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        with self._in_words():
+            self._write(frame)
+
+    @contextmanager
+    def _in_words(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise RecordingError(f"{self._path} cannot be written: {error.strerror}.") from error
+
+    def _discard(self) -> None:
+        """Remove the unfinished file, if there still is one."""
+        with suppress(OSError):  # on a full disk closing fails, too
+            self._stream.close()
+        with suppress(OSError):
+            self._part.unlink(missing_ok=True)
+
+    def _write(self, frame: Frame) -> None:
         stamp = round(frame.stamp * 1e9)
         base = self._robot.base
         if not self._stamps:

@@ -1,5 +1,7 @@
 """Settings and fixtures of all tests."""
 
+import resource
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -58,3 +60,12 @@ def methods_of_a_test(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (estimator.method, estimator.parameters):
         monkeypatch.setattr(module, "_METHODS", dict(module._METHODS))
     monkeypatch.setattr(method_files, "_loaded", {})
+
+
+@pytest.fixture
+def full_disk() -> Iterator[None]:
+    """Files that this process writes end at 20 kB, as on a full disk."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)

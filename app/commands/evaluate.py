@@ -22,11 +22,13 @@ from app.commands.flags.parameter_flags import add_parameter_flags, parameters_f
 from app.commands.flags.recording_flags import (
     Opening,
     add_recording_flags,
+    files_read,
     opening_from,
     recording_paths,
 )
-from app.commands.output_files import check_output, write
 from app.errors import UserError
+from app.output.checks import TABLE, check_output
+from app.output.writing import write
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
 from app.terminal.printable import printable
@@ -79,10 +81,10 @@ def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
     parameters = parameters_from(options)
     opening = opening_from(options)
-    if options.json:
-        check_output(options.json)
-    rows: list[dict[str, Any]] = []
     paths = recording_paths(options.paths)
+    if options.json:
+        check_output(options.json, TABLE, [*paths, *files_read(options)])
+    rows: list[dict[str, Any]] = []
     table = _Table([path.stem for path in paths])
     for line in table.heading():
         print(line)

@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
-from app.commands.flags.recording_flags import add_recording_flags, opening_from
-from app.commands.output_files import check_output, write
+from app.commands.flags.recording_flags import add_recording_flags, files_read, opening_from
 from app.errors import InputError
+from app.output.checks import PAGE, PICTURE, check_output
+from app.output.writing import write
 from app.terminal.printable import printable
 from estimator import Parameters
 
@@ -90,10 +91,8 @@ def run(options: argparse.Namespace) -> int:
 
     parameters = parameters_from(options)
     _check_flags(options)
-    if options.screenshot:
-        _check_output(options.screenshot, ".png")
-    else:
-        _check_output(options.html, ".html")
+    place, kind = (options.screenshot, PICTURE) if options.screenshot else (options.html, PAGE)
+    check_output(place, kind, [options.path, *files_read(options)])
     if options.path.is_dir():
         raise InputError(f"{options.path} is a folder; name one of the recordings in it.")
     library = Library([options.path], opening_from(options).open)
@@ -201,13 +200,6 @@ def _check_frame(opened: "Opened", frame: int) -> None:
         raise InputError(
             f"{opened.recording.name} has no frame {frame}: its frames are 0 to {last}."
         )
-
-
-def _check_output(path: Path, ending: str) -> None:
-    """Raise InputError where a file cannot be written, before anything is computed."""
-    if path.suffix.lower() != ending and not path.is_dir():
-        raise InputError(f"{path} must end in {ending}, so that programs know its format.")
-    check_output(path)
 
 
 def _size(text: str) -> tuple[int, int]:

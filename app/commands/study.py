@@ -25,7 +25,7 @@ from app.study.conditions import truth_frame_text
 from app.study.execution import outcomes
 from app.study.plan import METHODS, SWEEP, Plan
 from app.study.progress import Progress, duration
-from app.study.report import PAGE, Study, write_report
+from app.study.report import PAGE, Study, check_folder, write_report
 from app.study.software import software_digest
 from app.study.store import Store
 from app.study.text_files import for_terminal
@@ -111,6 +111,7 @@ def _run(options: argparse.Namespace) -> int:
     plan = _plan(options)
     if options.jobs < 1:
         raise InputError(f"--jobs must be 1 or more, got {options.jobs}.")
+    check_folder(options.out)
     store = Store(options.out / "results", software_digest(plan.method_files))
     works, twice = _once_each(store, plan.works())
     left = [work for work in map(store.missing, works) if work]

@@ -12,6 +12,7 @@ from app.browser.guarded_server import GuardedServer
 from app.browser.internals import NO_FLASH, PAGE_TITLE, PAUSE_TO_TYPE
 from app.errors import InputError
 from app.exports.captions import caption
+from app.output.checks import GENERATOR
 from app.scene.camera import Camera
 from app.scene.legend import Legend, LegendEntry
 from app.scene.legend_html import html
@@ -92,7 +93,7 @@ def offline_page(
     finally:
         server.stop()
     title = f"{recording.name} (simulated)" if recording.simulated else recording.name
-    page = page.replace(PAGE_TITLE, f"<title>{escape(title)}</title>", 1)
+    page = page.replace(PAGE_TITLE, f"{GENERATOR}<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")
     sides = comparison.drawn(parameters) if comparison else {}
     texts = dict(caption(recording, parameters, None, sides))

@@ -7,8 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from app.errors import InputError
+
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 """Selectable speeds, as multiples of the recording's own."""
+
+LONGEST_WAIT = 5.0
+"""Seconds; threads cannot wait for as long as stamps may be apart."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +72,12 @@ class PlaybackClock:
         """Change fields of `Playback`, {field: value}, while `frame` is shown.
 
         The range is clipped to the recording.
+
+        Raises:
+            InputError: the speed is none of `SPEEDS`.
         """
+        if (speed := values.get("speed", 1.0)) not in SPEEDS:
+            raise InputError(f"Speed must be one of {', '.join(map(str, SPEEDS))}, got {speed}.")
         start = (self._stamp(now), now) if self.playing else None
         playback = replace(self.playback, **values)
         last = min(max(playback.last, 0), len(self._stamps) - 1)
@@ -91,13 +101,16 @@ class PlaybackClock:
         return self.playback.first
 
     def wait(self, frame: int, now: float) -> float | None:
-        """Seconds from `now` until the frame after `frame` is due, None if none will be."""
+        """Seconds from `now` until the frame after `frame` is due, None if none will be.
+
+        At most `LONGEST_WAIT`, after which to ask again: a clock of a recording may jump by years.
+        """
         if not self.playing or (frame >= self._end and not self.playback.loop):
             return None
         due = self._stamps[self._end] + self._period
         if frame < self._end:
             due = self._stamps[frame + 1]
-        return max((due - self._stamp(now)) / self.playback.speed, 0.0)
+        return min(max((due - self._stamp(now)) / self.playback.speed, 0.0), LONGEST_WAIT)
 
     def _stamp(self, now: float) -> float:
         assert self._start is not None

@@ -1,6 +1,5 @@
 """Parameters under names, as files in the user's own folder."""
 
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from platformdirs import user_config_path
 
 from app.analysis.parameter_files import load, to_text
 from app.errors import InputError
+from app.output.writing import write
 from estimator import Parameters
 
 # Letters, digits and what stands between them: no path can be made of it, and no hidden file.
@@ -66,14 +66,11 @@ class Presets:
             InputError: the name or the folder cannot be used.
         """
         path = self._path(name)
-        # A session that reads at the same time finds the old file or the new one, never half of it.
-        unfinished = path.with_name(f".{path.name}.{os.getpid()}")
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            unfinished.write_text(to_text(parameters), encoding="utf-8")
-            unfinished.replace(path)
         except OSError as error:
             raise InputError(f"The preset cannot be saved at {path} ({error.strerror}).") from error
+        write(path, to_text(parameters).encode())
 
     def delete(self, name: str) -> None:
         """Forget a name.

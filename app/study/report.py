@@ -7,6 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from app.errors import InputError
+from app.output import checks
+from app.output.checks import is_ours
+from app.output.writing import write
 from app.study import page
 from app.study.ablation_findings import ablation_findings
 from app.study.conditions import (
@@ -118,14 +121,30 @@ def write_report(study: Study, folder: Path) -> list[Table]:
     files[PAGE] = _page(study, tables, figure).encode()
     try:
         (folder / _TABLES).mkdir(parents=True, exist_ok=True)
-        for name, content in files.items():
-            (folder / name).write_bytes(content)
         # Files of an earlier study in this folder do not belong to this page.
         for name in _KNOWN - files.keys():
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
         raise InputError(f"{error.filename} cannot be written: {error.strerror}.") from error
+    for name, content in files.items():
+        write(folder / name, content)
     return tables
+
+
+def check_folder(folder: Path) -> None:
+    """Check that a report overwrites nothing in a folder but another report.
+
+    Raises:
+        InputError: it would.
+    """
+    page = folder / PAGE
+    if is_ours(page, checks.PAGE):
+        return
+    theirs = next((folder / n for n in (PAGE, *sorted(_KNOWN)) if (folder / n).exists()), None)
+    if theirs:
+        raise InputError(
+            f"{theirs} exists and is not of a study; remove it or give another folder as --out."
+        )
 
 
 def _as_json(study: Study, tables: Sequence[Table]) -> dict[str, Any]:

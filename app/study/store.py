@@ -3,13 +3,13 @@
 import hashlib
 import json
 import os
-from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from app.analysis.evaluation import EvaluationCase
 from app.errors import InputError
+from app.output.writing import write
 from app.study.work import Outcome, Recorded, Result, Source, Work
 from estimator import from_nested, to_nested
 
@@ -78,16 +78,11 @@ class Store:
         content["source"] = _as_json(outcome.source)
         for written, result in zip(content["results"], whole.results, strict=True):
             written["case"]["parameters"] = to_nested(result.case.parameters)
-        # Atomic: an interrupted run leaves the old file or the new one.
-        draft = path.with_suffix(".draft")
         try:
-            draft.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-            os.replace(draft, path)
-        except OSError as error:
+            write(path, f"{json.dumps(content, indent=1)}\n".encode())
+        except InputError:
             self._unwritten[outcome.source] = whole
-            with suppress(OSError):
-                draft.unlink()
-            raise InputError(f"{path} cannot be written: {error.strerror}.") from error
+            raise
 
     def _load(self, source: Source) -> Outcome | None:
         if source in self._unwritten:

@@ -53,10 +53,14 @@ def frames(count: int = 12) -> list[Frame]:
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("written") / "towards.mcap"
+    write_all(path)
+    return path
+
+
+def write_all(path: Path) -> None:
     with RecordingWriter(path, ROBOT, RIG, PROVENANCE) as writer:
         for frame in frames():
             writer.write(frame)
-    return path
 
 
 def test_what_is_written_is_read(written: Path):
@@ -146,3 +150,17 @@ def test_nothing_is_left_of_a_recording_that_failed(tmp_path: Path):
 def test_a_place_that_cannot_be_written_is_one_sentence(tmp_path: Path):
     with pytest.raises(RecordingError, match="cannot be written: No such file"):
         RecordingWriter(tmp_path / "nowhere" / "x.mcap", ROBOT, RIG, PROVENANCE)
+
+
+@pytest.mark.parametrize("before", [None, b"what was there"])
+def test_a_full_disk_is_one_sentence_and_leaves_what_was_there(
+    before: bytes | None, tmp_path: Path, full_disk: None
+):
+    path = tmp_path / "x.mcap"
+    if before is not None:
+        path.write_bytes(before)
+    with pytest.raises(RecordingError, match=r"x\.mcap cannot be written: File too large\."):
+        write_all(path)
+    assert [(p.name, p.read_bytes()) for p in tmp_path.iterdir()] == (
+        [] if before is None else [("x.mcap", before)]
+    )

@@ -64,6 +64,12 @@ def opening_from(options: argparse.Namespace) -> Opening:
     )
 
 
+def files_read(options: argparse.Namespace) -> list[Path]:
+    """Files beside the recordings that the flags name: rig, robot, parameters."""
+    named = (options.rig, options.urdf, options.parameters)
+    return [path for path in named if path is not None]
+
+
 def recording_paths(arguments: list[Path]) -> list[Path]:
     """The recordings that arguments name: files as they are, folders as the *.mcap in them.
 

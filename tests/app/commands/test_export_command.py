@@ -58,7 +58,7 @@ def test_a_file_that_cannot_be_written_is_said_before_anything_is_computed(
     monkeypatch.setattr("app.exports.offline_page.offline_page", lambda *_: pytest.fail("computed"))
     place = tmp_path / "locked"
     place.mkdir()
-    monkeypatch.setattr("app.commands.output_files.os.access", lambda path, _: path != place)
+    monkeypatch.setattr("app.output.checks.os.access", lambda path, _: path != place)
     code, said = refusal(capsys, room, "--html", place / "a.html")
     assert code == 1
     assert "cannot be written: permission denied" in said

@@ -3,7 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.session.clock import Playback, PlaybackClock
+from app.errors import InputError
+from app.session.clock import LONGEST_WAIT, Playback, PlaybackClock
 
 STAMPS = [100.0, 100.1, 100.2, 100.5, 100.6]
 
@@ -139,3 +140,20 @@ def test_after_each_wait_the_next_frame_is_due(gaps, start, origin):
         assert clock.advance(now) == frame + 1
         frame += 1
     assert frame == len(stamps) - 1
+
+
+def test_a_jump_by_years_is_waited_for_bit_by_bit():
+    clock = PlaybackClock(np.array([0.0, 1.7e9, 1.7e9 + 0.1]))
+    clock.change({"speed": 0.1}, 0, 0.0)
+    clock.play(0, 0.0)
+    assert clock.wait(0, 0.0) == LONGEST_WAIT
+    assert clock.advance(LONGEST_WAIT) == 0
+    assert clock.playing
+
+
+@pytest.mark.parametrize("speed", [0.0, -1.0, float("nan"), float("inf"), 3.0])
+def test_a_speed_that_is_not_offered_is_refused(speed):
+    clock = PlaybackClock(np.arange(5.0))
+    with pytest.raises(InputError, match=r"Speed must be one of 0\.1, 0\.25"):
+        clock.change({"speed": speed}, 0, 0.0)
+    assert clock.playback.speed == 1.0

@@ -1,0 +1,43 @@
+"""Writing of files that are whole or as they were before."""
+
+import contextlib
+import os
+from pathlib import Path
+from uuid import uuid4
+
+from app.errors import InputError
+
+
+def write(path: Path, content: bytes) -> None:
+    """Write a file beside its place and rename it, so that a failure leaves what was there.
+
+    A link is followed. Devices and pipes, such as /dev/stdout, are written to as they are.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            path.write_bytes(content)
+        else:
+            _replace(path.resolve(), content)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}.") from error
+
+
+def _replace(path: Path, content: bytes) -> None:
+    # A name of its own for every writer: two of them at once both succeed.
+    draft = path.with_name(f".tofscope-{uuid4().hex}.part")
+    try:
+        with draft.open("xb") as stream:
+            stream.write(content)
+            stream.flush()
+            # Some file systems tell only now that they are full.
+            os.fsync(stream.fileno())
+        if path.exists():
+            draft.chmod(path.stat().st_mode & 0o777)
+        os.replace(draft, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            draft.unlink(missing_ok=True)
+        raise
