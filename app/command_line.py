@@ -1,89 +1,25 @@
-"""The command `tofscope`: one module of `app.commands` per subcommand."""
+"""The command `tofscope`: signals are handled before anything large is imported."""
 
-import argparse
-import logging
-import os
 import sys
 from collections.abc import Sequence
-from typing import Any, NoReturn
 
-from app.commands import evaluate, export, info, simulate, study, view
-from app.commands.flags.parameter_flags import register_method_files
-from app.errors import UserError
-from app.terminal.printable import printable
-
-_LOG = logging.getLogger(__name__)
-_OURS = ("app", "estimator", "recordings", "robot_assets")
-_LOG_LEVELS = ("debug", "info", "warning", "error", "critical")
-
-
-class _Parser(argparse.ArgumentParser):
-    """Parser whose errors are one sentence, and whose flags are written in full."""
-
-    def __init__(self, **options: Any) -> None:  # noqa: ANN401 (argparse's)
-        super().__init__(allow_abbrev=False, **options)
-
-    def error(self, message: str) -> NoReturn:
-        """Say what is wrong in one sentence, without the usage in front of it."""
-        print(f"{self.prog}: {printable(message)}; see '{self.prog} --help'.", file=sys.stderr)
-        raise SystemExit(2)
+from app.commands import signals
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line and return its exit code."""
+    """Run the command line and return its exit code.
+
+    Args:
+        arguments: of the command line; None: those of this process, which ends afterwards.
+    """
     given = sys.argv[1:] if arguments is None else list(arguments)
+    with signals.ending_at_once():
+        from app.commands.running import run
     try:
-        register_method_files(given)
-        parser = _parser()
-    except UserError as error:
-        print(f"tofscope: {printable(str(error))}", file=sys.stderr)
-        return 2
-    options = parser.parse_args(given)
-    _set_up_log(options.log_level)
-    try:
-        return options.run(options)
-    except UserError as error:
-        print(f"tofscope {options.command}: {printable(str(error))}", file=sys.stderr)
-        return 1
+        with signals.raising_keyboard_interrupt():
+            return run(given)
     except KeyboardInterrupt:
-        return 130
-    except BrokenPipeError:
-        # The reader of a pipe has gone: that is its right, and no error of ours.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-    except Exception as error:
-        _LOG.exception("Unexpected error.")
-        said = printable(f"{type(error).__name__}: {error}")
-        print(
-            f"tofscope {options.command}: something unexpected went wrong ({said}); please report "
-            "it with the lines above.",
-            file=sys.stderr,
-        )
-        return 1
-
-
-def _parser() -> _Parser:
-    """Parser of all subcommands; MethodError where flags of methods collide."""
-    parser = _Parser(
-        prog="tofscope",
-        description="See and tune scene flow from miniature time-of-flight sensors.",
-    )
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (view, info, simulate, evaluate, study, export):
-        module.add_parser(commands)
-    for subcommand in commands.choices.values():
-        subcommand.add_argument(
-            "--log-level",
-            type=str.lower,
-            choices=_LOG_LEVELS,
-            default="warning",
-            help="least severe messages that are logged on standard error (default warning)",
-        )
-    return parser
-
-
-def _set_up_log(level: str) -> None:
-    """Log on standard error: our own messages from a level on, warnings of libraries."""
-    logging.basicConfig(format="%(asctime)s %(levelname)s %(name)s: %(message)s", stream=sys.stderr)
-    for package in _OURS:
-        logging.getLogger(package).setLevel(level.upper())
+        return signals.STOPPED
+    finally:
+        if arguments is None:
+            signals.ignore()

@@ -34,7 +34,7 @@ MAY_IMPORT: dict[str, set[str]] = {
         *SHOWN,
         *LOWER,
     },
-    "app.command_line": {"app.commands", "app.terminal"},
+    "app.command_line": {"app.commands"},
     "app.__main__": {"app.command_line"},
 }
 """{room: the rooms that it may import beside itself}; the design, as a table."""

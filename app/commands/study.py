@@ -2,10 +2,8 @@
 
 import argparse
 import shlex
-import signal
 import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
@@ -20,6 +18,7 @@ from app.commands.flags.parameter_flags import (
 from app.commands.flags.recording_flags import add_recording_flags, opening_from, recording_paths
 from app.commands.flags.simulation_flags import ALL, check_simulation, scenario_names
 from app.commands.flags.study_flags import add_execution_flags, add_source_flags
+from app.commands.signals import STOPPED
 from app.errors import InputError
 from app.study.conditions import truth_frame_text
 from app.study.execution import outcomes
@@ -87,26 +86,6 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
-    with _sigterm_as_ctrl_c():
-        return _run(options)
-
-
-@contextmanager
-def _sigterm_as_ctrl_c() -> Iterator[None]:
-    """Handle SIGTERM like Ctrl-C: stop workers and remove temporary files."""
-
-    def stop(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second one must not interrupt the cleanup
-        raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _run(options: argparse.Namespace) -> int:
     begin = monotonic()
     plan = _plan(options)
     if options.jobs < 1:
@@ -119,7 +98,7 @@ def _run(options: argparse.Namespace) -> int:
         print(f"{len(works) - len(left)} of {len(works)} recordings are known from before.")
     failures = _execute(options, store, left, len(works))
     if failures is None:
-        return 130
+        return STOPPED
     finished = [outcome for work in works if (outcome := store.finished(work))]
     failures += twice
     failures += [

@@ -2,13 +2,13 @@
 
 import argparse
 import ipaddress
-import signal
 import sys
 import threading
 from pathlib import Path
 
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
+from app.commands.signals import ending_at_once, handled
 from recordings import sample_paths
 
 _LOOK_UP = 0.5  # seconds
@@ -44,40 +44,43 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve until a signal ends it."""
     # viser takes a second to import, which `tofscope --help` need not wait for.
-    from app.analysis.estimates import Estimates, warm_up
-    from app.analysis.library import Library
-    from app.server.server import Server
-    from app.server.session import Shared
-    from app.session.reload import Reloads
+    with ending_at_once():
+        from app.analysis.estimates import Estimates, warm_up
+        from app.analysis.library import Library
+        from app.server.server import Server
+        from app.server.session import Shared
+        from app.session.reload import Reloads
 
-    parameters = parameters_from(options)
-    library = Library(options.paths or sample_paths(), opening_from(options).open)
-    entries = library.listing()
-    if len(entries) == 1:
-        # The only recording there is must open; of several, a bad one is told on the page.
-        library.release(library.open(entries[0]).entry)
+        parameters = parameters_from(options)
+        library = Library(options.paths or sample_paths(), opening_from(options).open)
+        entries = library.listing()
+        if len(entries) == 1:
+            # The only recording there is must open; of several, a bad one is told on the page.
+            library.release(library.open(entries[0]).entry)
 
-    ended = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: ended.set())
-    server = Server(Shared(library, Estimates(), Reloads(), parameters), options.host, options.port)
-    try:
-        if not _is_loopback(options.host):
-            print(
-                f"Warning: at {options.host} everybody who can reach this machine can see the "
-                "recordings, and change and delete the presets. There is no password, and nothing "
-                f"is encrypted. Others find the page at {server.address_for_others}.",
-                file=sys.stderr,
-            )
-        print(f"Tofscope is at {server.address}", flush=True)
-        warm_up()
-        # A signal may reach a thread of some library: the main thread, which alone runs its
-        # handler, is not woken by it and has to look up by itself.
-        while not ended.wait(_LOOK_UP):
-            pass
-    finally:
-        server.close()
+    ended, shared = threading.Event(), Shared(library, Estimates(), Reloads(), parameters)
+    with handled(lambda *_: ended.set()):
+        server = Server(shared, options.host, options.port)
+        try:
+            if not _is_loopback(options.host):
+                print(_warning(options.host, server.address_for_others), file=sys.stderr)
+            print(f"Tofscope is at {server.address}", flush=True)
+            warm_up()
+            # A signal may reach a thread of some library: the main thread, which alone runs its
+            # handler, is not woken by it and has to look up by itself.
+            while not ended.wait(_LOOK_UP):
+                pass
+        finally:
+            server.close()
     return 0
+
+
+def _warning(host: str, address: str) -> str:
+    return (
+        f"Warning: at {host} everybody who can reach this machine can see the recordings, and "
+        "change and delete the presets. There is no password, and nothing is encrypted. Others "
+        f"find the page at {address}."
+    )
 
 
 def _is_loopback(host: str) -> bool:

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 def terminal() -> "Console | None":
     """Console on standard output; None where that is no terminal, or cannot overwrite a line."""
-    if not sys.stdout.isatty():
+    if sys.stdout is None or not sys.stdout.isatty():
         return None
     from rich.console import Console
 
