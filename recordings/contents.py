@@ -111,7 +111,9 @@ def natural_key(text: str) -> list[tuple[int, int, str]]:
     """Sort key that puts "ring/10" after "ring/9"."""
     key: list[tuple[int, int, str]] = []
     for digit, run in _runs(text):
-        key.append((0, int(run), "") if digit else (1, 0, run))
+        # Not as numbers, which Python reads of 4300 digits at most.
+        digits = run.lstrip("0") if digit else run
+        key.append((0, len(digits), digits) if digit else (1, 0, run))
     return key
 
 

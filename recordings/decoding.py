@@ -28,7 +28,8 @@ class Decoder:
         self._known: set[str] = set()
         self._lock = threading.Lock()
         self._stamps: dict[int, NDArray[np.int64]] = {}
-        self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""))
+        count = sum(map(len, file.tables.values()))
+        self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""), count)
 
     def can_decode(self, channel: ChannelInfo) -> bool:
         """Whether the encoding of a channel's messages is supported."""
@@ -60,12 +61,27 @@ class Decoder:
         Our own files have them in an attachment. In others only the first bytes of each message
         are read, without decoding it.
         """
-        indexed = self._stamp_index.get(channel.topic)
-        if indexed is not None and len(indexed) == len(self._file.tables[channel.id]):
-            return indexed
         if channel.id not in self._stamps:
-            self.read_stamps([channel])
+            indexed = self._stamp_index.get(channel.topic)
+            if indexed is not None and self._is_true(indexed, channel):
+                self._stamps[channel.id] = indexed
+            else:
+                self.read_stamps([channel])
         return self._stamps[channel.id]
+
+    def _is_true(self, indexed: NDArray[np.int64], channel: ChannelInfo) -> bool:
+        """Whether stamps of the index are as many as a channel's messages, and those of some."""
+        count = len(self._file.tables[channel.id])
+        if len(indexed) != count:
+            return False
+        try:
+            return all(
+                _stamp(self._file.message(channel, index)) == indexed[index]
+                for index in {0, count // 2, count - 1}
+                if count
+            )
+        except (struct.error, RecordingError):
+            return False
 
     def read_stamps(self, channels: Iterable[ChannelInfo]) -> None:
         """Read the header stamps of several channels at once and cache them for `header_stamps`.

@@ -13,6 +13,7 @@ from recordings.truth import ObjectTruth, RigidTruth, TurningTruth, TwistTruth
 
 OBJECT_FRAME = "object_"
 """Prefix of an object's frame in /tf; the object's number in the truth of points follows."""
+_DIGITS = 9  # of an object's number
 _TURNING = 1e-3  # rad/s
 
 
@@ -93,7 +94,7 @@ def point_truths(
     poses = {
         int(number): tree.over(fixed_frame, frame, len(table.stamps))
         for frame, number in numbers.items()
-        if number.isdecimal() and tree.connected(fixed_frame, frame)
+        if number.isdecimal() and len(number) <= _DIGITS and tree.connected(fixed_frame, frame)
     }
     return PointTruths(topic, decoder, table.stamps, 0.5 * table.period, poses), []
 

@@ -16,14 +16,14 @@ SAMPLE = str(sample_paths()[0])
 NUMBERS = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 
 
-def started(*arguments: str, folder: Path, **options: int) -> subprocess.Popen[str]:
+def started(*arguments: str, folder: Path, stdout: int) -> subprocess.Popen[str]:
     return subprocess.Popen(
         [sys.executable, "-m", "app", *arguments],
         cwd=folder,
         env=os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(folder)},
         text=True,
         stderr=subprocess.PIPE,
-        **options,
+        stdout=stdout,
     )
 
 
