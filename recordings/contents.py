@@ -1,6 +1,6 @@
 """Uses of a file's topics, decided by type and content; names are hints."""
 
-import math
+import re
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from recordings.decoding import Decoder
-from recordings.errors import BrokenFileError, RecordingError
 from recordings.grids import SIZES, Grid, is_grid, size_text
 from recordings.mcap_contents import ChannelInfo
 from recordings.mcap_file import McapFile
@@ -16,6 +15,9 @@ from recordings.range_formats import range_format
 
 _STATUS_ENCODINGS = ("8UC1", "mono8")
 _TRUTH_NAMES = ("target", "truth")
+_LEAST_FOCAL, _LARGEST_FOCAL = 1e-2, 1e6
+"""Zones: two of them would see nearly half the space around a sensor, or a point."""
+_LONGEST_NAME = 1000  # characters of a topic
 
 
 class Use(StrEnum):
@@ -48,6 +50,7 @@ class Topic:
         frame: frame_id of its first message, "" where its type has no header.
         candidate: whether it is one of several topics that could be the truth.
         grid: size of its first image, or of the images that its intrinsics are for.
+        damaged: whether it could be of use, but its messages or their schema do not fit its type.
     """
 
     channel: ChannelInfo
@@ -56,6 +59,7 @@ class Topic:
     frame: str = ""
     candidate: bool = False
     grid: Grid | None = None
+    damaged: bool = False
 
     @property
     def name(self) -> str:
@@ -110,39 +114,29 @@ def _one_truth(topics: list[Topic], use: Use) -> list[Topic]:
 def natural_key(text: str) -> list[tuple[int, int, str]]:
     """Sort key that puts "ring/10" after "ring/9"."""
     key: list[tuple[int, int, str]] = []
-    for digit, run in _runs(text):
+    for run in re.findall(r"[0-9]+|[^0-9]+", text):
         # Not as numbers, which Python reads of 4300 digits at most.
-        digits = run.lstrip("0") if digit else run
-        key.append((0, len(digits), digits) if digit else (1, 0, run))
+        digits = run.lstrip("0")
+        key.append((0, len(digits), digits) if run[0] in "0123456789" else (1, 0, run))
     return key
-
-
-def _runs(text: str) -> list[tuple[bool, str]]:
-    runs: list[tuple[bool, str]] = []
-    for character in text:
-        digit = character.isascii() and character.isdigit()
-        if runs and runs[-1][0] == digit:
-            runs[-1] = (digit, runs[-1][1] + character)
-        else:
-            runs.append((digit, character))
-    return runs
 
 
 def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     kind = channel.schema_name.replace("/msg/", "/")
     if kind not in _BY_TYPE and range_format(kind) is None:
         return Topic(channel, Use.NOTHING, f"{channel.schema_name or 'its type'} is not needed")
+    if len(channel.topic) > _LONGEST_NAME:
+        return Topic(channel, Use.NOTHING, "its name is too long")
     if not decoder.can_decode(channel):
         encoding = f"{channel.encoding} with schema {channel.schema_encoding or 'none'}"
         return Topic(channel, Use.NOTHING, f"its encoding ({encoding}) cannot be read")
-    if len(file.tables[channel.id]) == 0:
+    if len(file.table(channel)) == 0:
         return Topic(channel, Use.NOTHING, "it has no messages")
-    try:
-        first = decoder.decode(channel, 0)
-    except BrokenFileError:
-        raise
-    except RecordingError:
-        return Topic(channel, Use.NOTHING, "its first message does not fit its type")
+    if misfit := decoder.misfit(channel):
+        return Topic(channel, Use.NOTHING, f"it does not fit its type: {misfit}", damaged=True)
+    first = decoder.first(channel)
+    if first is None:
+        return Topic(channel, Use.NOTHING, "its messages do not fit its type", damaged=True)
     return _by_content(channel, kind, first)
 
 
@@ -169,9 +163,9 @@ def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
     if not is_grid(info.height, info.width):
         return f"it is for {size_text((info.height, info.width))}, and a sensor has {SIZES}"
     fx, fy, cx, cy = camera_matrix(info)
-    if not all(math.isfinite(f) and f > 0 for f in (fx, fy)):
-        return f"its focal lengths are {fx:g} and {fy:g}"
-    if not (math.isfinite(cx) and math.isfinite(cy)):
+    if not all(_LEAST_FOCAL <= f <= _LARGEST_FOCAL for f in (fx, fy)):
+        return f"its focal lengths are {fx:g} and {fy:g} zones"
+    if not all(abs(c) <= _LARGEST_FOCAL for c in (cx, cy)):
         return f"its optical axis is at {cx:g}, {cy:g}"
     return Use.CAMERA_INFO
 

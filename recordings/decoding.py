@@ -8,11 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
-from recordings.errors import RecordingError
+from recordings.errors import BrokenFileError, MisfitError, RecordingError
+from recordings.left_out import LeftOut
 from recordings.mcap_contents import ChannelInfo
 from recordings.mcap_file import McapFile
+from recordings.message_types import misfit
 from recordings.stamp_index import STAMP_INDEX, unpack
+
+_LARGEST_SCHEMA = 2**18
+"""Bytes; the standard types with all that they use have some thousand."""
+_TRIED = 100
+"""First messages of a topic that are tried until one fits its type."""
 
 
 class Decoder:
@@ -20,40 +28,77 @@ class Decoder:
 
     Args:
         file: of the channels and their schemas.
+
+    Attributes:
+        left_out: messages that do not fit their types.
     """
 
     def __init__(self, file: McapFile) -> None:
         self._file = file
-        self._store = get_typestore(Stores.EMPTY)
-        self._known: set[str] = set()
+        self._stores: dict[tuple[str, bytes], Typestore] = {}
         self._lock = threading.Lock()
         self._stamps: dict[int, NDArray[np.int64]] = {}
-        count = sum(map(len, file.tables.values()))
-        self._stamp_index = unpack(file.attachments.get(STAMP_INDEX, b""), count)
+        self.left_out = LeftOut()
+        index = file.attachment(STAMP_INDEX)
+        self._stamp_index = unpack(index, file.message_count) if index is not None else {}
+        self.has_stamp_index = bool(self._stamp_index)
 
     def can_decode(self, channel: ChannelInfo) -> bool:
         """Whether the encoding of a channel's messages is supported."""
         return channel.encoding == "cdr" and channel.schema_encoding in ("ros2msg", "ros2idl")
 
+    def misfit(self, channel: ChannelInfo) -> str:
+        """Why a channel's schema is not what its name says, "" where it is."""
+        if len(channel.schema_data) > _LARGEST_SCHEMA:
+            return f"its schema has {len(channel.schema_data)} bytes, too many"
+        try:
+            return misfit(self._store(channel), channel.schema_name)
+        except Exception:  # rosbags' parser can raise any error on a broken schema
+            return "its schema cannot be read"
+
     def decode(self, channel: ChannelInfo, index: int) -> Any:  # noqa: ANN401 (the schema's type)
         """Decode a channel's message.
 
         Raises:
-            RecordingError: the message does not fit its schema.
+            MisfitError: the message does not fit its schema.
+            BrokenFileError: the file is broken there.
         """
         data = self._file.message(channel, index)
         try:
-            self._register(channel)
-            return self._store.deserialize_cdr(data, channel.schema_name)
+            return self._store(channel).deserialize_cdr(data, channel.schema_name)
         except Exception as error:  # rosbags' generated code can raise any error on broken bytes
-            raise RecordingError(
-                f"{self._file.path} is broken at message {index} of {channel.topic}: "
-                f"it does not fit the type {channel.schema_name}."
-            ) from error
+            raise MisfitError(f"it does not fit the type {channel.schema_name}") from error
 
-    def messages(self, channel: ChannelInfo) -> Iterator[Any]:
-        """All messages of a channel, decoded one by one; errors as in `decode`."""
-        return (self.decode(channel, i) for i in range(len(self._file.tables[channel.id])))
+    def fitting(self, channel: ChannelInfo, index: int) -> Any | None:  # noqa: ANN401
+        """Decode a message; None, and a note in `left_out`, where it does not fit its type."""
+        try:
+            return self.decode(channel, index)
+        except MisfitError as error:
+            self.left_out.add(channel.topic, index, str(error))
+            return None
+
+    def readable(self, channel: ChannelInfo, index: int) -> Any | None:  # noqa: ANN401
+        """As `fitting`, and also None where the file is broken."""
+        try:
+            return self.fitting(channel, index)
+        except BrokenFileError:
+            self.left_out.add(channel.topic, index, "the file is broken there")
+            return None
+
+    def first(self, channel: ChannelInfo) -> Any:  # noqa: ANN401
+        """The first message of a channel that fits its type; None where none of some does."""
+        return next(self.messages(channel, _TRIED), None)
+
+    def messages(self, channel: ChannelInfo, most: int | None = None) -> Iterator[Any]:
+        """The messages of a channel that fit its type, decoded one by one.
+
+        Args:
+            channel: of the file.
+            most: number of messages that are tried; default: all.
+        """
+        for index in range(len(self._file.table(channel)))[:most]:
+            if (message := self.fitting(channel, index)) is not None:
+                yield message
 
     def header_stamps(self, channel: ChannelInfo) -> NDArray[np.int64]:
         """Header stamps (N,) in nanoseconds of all messages of a channel whose type has a header.
@@ -71,7 +116,7 @@ class Decoder:
 
     def _is_true(self, indexed: NDArray[np.int64], channel: ChannelInfo) -> bool:
         """Whether stamps of the index are as many as a channel's messages, and those of some."""
-        count = len(self._file.tables[channel.id])
+        count = len(self._file.table(channel))
         if len(indexed) != count:
             return False
         try:
@@ -86,31 +131,37 @@ class Decoder:
     def read_stamps(self, channels: Iterable[ChannelInfo]) -> None:
         """Read the header stamps of several channels at once and cache them for `header_stamps`.
 
-        Raises:
-            RecordingError: a message is too short for a header.
+        Messages too short for a header are removed from the file's tables.
         """
         channels = list(channels)
-        stamps = {c.id: np.zeros(len(self._file.tables[c.id]), np.int64) for c in channels}
+        stamps = {c.id: np.zeros(len(self._file.table(c)), np.int64) for c in channels}
+        short: dict[int, list[int]] = {c.id: [] for c in channels}
         for channel, index, payload in self._file.in_file_order(channels):
             try:
                 stamps[channel.id][index] = _stamp(payload)
-            except struct.error as error:
-                raise RecordingError(
-                    f"{self._file.path} is broken: a message of {channel.topic} is too short."
-                ) from error
+            except struct.error:
+                short[channel.id].append(index)
+                self.left_out.add(channel.topic, index, "it is too short for a header")
+        for channel in channels:
+            if rows := short[channel.id]:
+                self._file.leave_out(channel, rows)
+                stamps[channel.id] = np.delete(stamps[channel.id], rows)
         self._stamps |= stamps
 
-    def _register(self, channel: ChannelInfo) -> None:
+    def _store(self, channel: ChannelInfo) -> Typestore:
+        """Types of a channel's schema; files may define a type differently for each channel."""
+        key = channel.schema_name, channel.schema_data
         with self._lock:
-            if channel.schema_name in self._known:
-                return
-            text = channel.schema_data.decode("utf-8")
-            if channel.schema_encoding == "ros2idl":
-                types = get_types_from_idl(text)
-            else:
-                types = get_types_from_msg(text, channel.schema_name)
-            self._store.register({k: v for k, v in types.items() if k not in self._store.types})
-            self._known.add(channel.schema_name)
+            if key not in self._stores:
+                text = channel.schema_data.decode("utf-8")
+                if channel.schema_encoding == "ros2idl":
+                    types = get_types_from_idl(text)
+                else:
+                    types = get_types_from_msg(text, channel.schema_name)
+                store = get_typestore(Stores.EMPTY)
+                store.register(types)
+                self._stores[key] = store
+            return self._stores[key]
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.errors import RecordingError
+from recordings.errors import MisfitError
 from recordings.grids import SIZES, Grid, is_grid, size_text
 from recordings.range_format import RangeFormat
 
@@ -25,7 +25,7 @@ def depth_ranges(image: Any) -> NDArray[np.float64]:  # noqa: ANN401
     """Ranges (rows, columns) in metres: 16 bit are millimetres, 32 bit metres (REP 118).
 
     Raises:
-        RecordingError: the image has fewer bytes than its size says.
+        MisfitError: the image has fewer bytes than its size says.
     """
     if image.encoding == "32FC1":
         return pixels(image, np.dtype(np.float32)).astype(np.float64)
@@ -36,14 +36,14 @@ def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
     """Pixels (height, width) of an image as numbers of type `kind`.
 
     Raises:
-        RecordingError: the image has fewer bytes than its size says.
+        MisfitError: the image has fewer bytes than its size says.
     """
     rows, columns = image.height, image.width
     needed = (rows - 1) * image.step + columns * kind.itemsize
     if image.step < columns * kind.itemsize or len(image.data) < needed:
-        raise RecordingError(
-            f"An image of {image.header.frame_id} has {len(image.data)} bytes in rows of "
-            f"{image.step}, too few for {columns} x {rows} zones in {image.encoding}."
+        raise MisfitError(
+            f"it has {len(image.data)} bytes in rows of {image.step}, too few for {columns} x "
+            f"{rows} zones in {image.encoding}"
         )
     order = ">" if image.is_bigendian else "<"
     data = np.frombuffer(bytes(image.data), dtype=np.uint8)

@@ -13,6 +13,13 @@ class BrokenFileError(RecordingError):
     """File with invalid bytes."""
 
 
+class MisfitError(RecordingError):
+    """Message that does not fit its type or its topic.
+
+    The text is a reason that follows the message's name, such as "it is too short".
+    """
+
+
 def few(names: Sequence[str]) -> str:
     """Join names for a message: all of a few, else the first ones and the number of others."""
     if len(names) <= _FEW:

@@ -72,7 +72,9 @@ def file_info(path: str | Path) -> FileInfo:
 def _file_info(file: McapFile, path: str | Path) -> FileInfo:
     try:
         topics = topics_of(file, Decoder(file))
-        times = np.concatenate([table.log_time for table in file.tables.values()] or [np.zeros(0)])
+        times = np.concatenate(
+            [file.table(topic.channel).log_time for topic in topics] or [np.zeros(0)]
+        )
         return FileInfo(
             path=str(path),
             size=file.path.stat().st_size,
@@ -86,7 +88,7 @@ def _file_info(file: McapFile, path: str | Path) -> FileInfo:
 
 
 def _topic_info(topic: Topic, file: McapFile) -> TopicInfo:
-    times = file.tables[topic.channel.id].log_time
+    times = file.table(topic.channel).log_time
     gaps = np.diff(times) * 1e-9
     lasted = float(gaps.sum())
     return TopicInfo(

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder
 from recordings.errors import few
-from recordings.mcap_file import McapFile
 from recordings.tracks import Stamps, vector_track
 from robot_assets import JointMatch, Robot
 
@@ -16,17 +15,17 @@ _FIRST_MESSAGES = 50  # enough to see both kinds in a stream that mixes arm and 
 _NOT_MEASURED = ("desired", "command", "target", "goal")
 
 
-def joint_names(topics: list[Topic], file: McapFile, decoder: Decoder) -> list[str]:
+def joint_names(topics: list[Topic], decoder: Decoder) -> list[str]:
     """Names of all joints in a file, from the first messages of each topic."""
     names: list[str] = []
     for topic in _joint_topics(topics):
-        for message_names in _first_names(topic, file, decoder):
+        for message_names in _first_names(topic, decoder):
             names += message_names
     return list(dict.fromkeys(names))
 
 
 def joint_positions(
-    topics: list[Topic], file: McapFile, decoder: Decoder, match: JointMatch, stamps: Stamps
+    topics: list[Topic], decoder: Decoder, match: JointMatch, stamps: Stamps
 ) -> tuple[dict[str, NDArray[np.float64]], list[str]]:
     """Read the positions of a robot's joints at given stamps.
 
@@ -35,8 +34,7 @@ def joint_positions(
 
     Args:
         topics: of the file; those used as joint positions are read.
-        file: the file.
-        decoder: of the same file.
+        decoder: of the file.
         match: of recorded names to joints.
         stamps: (K,) nanoseconds.
 
@@ -45,8 +43,7 @@ def joint_positions(
         about topics with the same joints.
     """
     found = {
-        topic.name: _of_topic(topic, file, decoder, match, stamps)
-        for topic in _joint_topics(topics)
+        topic.name: _of_topic(topic, decoder, match, stamps) for topic in _joint_topics(topics)
     }
     positions: dict[str, NDArray[np.float64]] = {}
     unused: list[str] = []
@@ -110,8 +107,8 @@ def unknown_joints(
         return []
     warnings: list[str] = []
     if missing := [j for j in robot.joint_names if j not in known]:
-        lost = [link for link in robot.links if link not in robot.links_placed_by(known)]
-        lost = [link for link in lost if link not in set(placed)]
+        found = robot.links_placed_by(known).union(placed)
+        lost = [link for link in robot.links if link not in found]
         what = f"{few(lost)} cannot be placed" if lost else "it is taken to be at rest"
         warnings.append(f"The recording has no position of {few(missing)}; {what}.")
     sometimes = sum(not np.isfinite(values).all() for j, values in positions.items() if j in known)
@@ -132,18 +129,17 @@ def _is_not_measured(topic: str) -> bool:
     return any(word in topic.lower() for word in _NOT_MEASURED)
 
 
-def _first_names(topic: Topic, file: McapFile, decoder: Decoder) -> set[tuple[str, ...]]:
-    count = min(len(file.tables[topic.channel.id]), _FIRST_MESSAGES)
-    messages = (decoder.decode(topic.channel, index) for index in range(count))
+def _first_names(topic: Topic, decoder: Decoder) -> set[tuple[str, ...]]:
+    messages = decoder.messages(topic.channel, _FIRST_MESSAGES)
     return {tuple(str(name) for name in message.name) for message in messages}
 
 
 def _of_topic(
-    topic: Topic, file: McapFile, decoder: Decoder, match: JointMatch, stamps: Stamps
+    topic: Topic, decoder: Decoder, match: JointMatch, stamps: Stamps
 ) -> dict[str, NDArray[np.float64]]:
     message_stamps = decoder.header_stamps(topic.channel)
     wanted = np.arange(len(message_stamps))
-    if len(_first_names(topic, file, decoder)) == 1:
+    if len(_first_names(topic, decoder)) == 1:
         # Joint streams run at up to 1 kHz: only the messages next to a frame are decoded. Not where
         # messages hold different joints, since the neighbours may lack the needed one.
         order = np.argsort(message_stamps, kind="stable")
@@ -152,7 +148,8 @@ def _of_topic(
         wanted = order[np.unique(around)]
     samples: dict[str, list[tuple[int, float]]] = {}
     for index in wanted.tolist():
-        message = decoder.decode(topic.channel, index)
+        if (message := decoder.fitting(topic.channel, index)) is None:
+            continue
         for name, value in zip(message.name, message.position, strict=False):
             if joint := match.joints.get(str(name)):
                 samples.setdefault(joint, []).append((int(message_stamps[index]), float(value)))

@@ -1,21 +1,25 @@
 """Contents of an MCAP file: its records, and tables of its messages."""
 
 import struct
+from array import array
 from dataclasses import dataclass, field
 from io import BytesIO
 
 import numpy as np
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Attachment, Channel, Chunk, Metadata, Schema
-from mcap.stream_reader import get_chunk_data_stream
+from mcap.records import Channel, Schema
 from numpy.typing import NDArray
+
+from recordings.chunks import chunk_data
 
 RECORD_HEAD = struct.Struct("<BQ")
 """Opcode, and length of the content."""
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 """Channel, sequence, log time, publish time."""
 UNCHUNKED = -1
+_INDEX_HEAD = struct.Struct("<HI")
+"""Channel, and bytes of the entries."""
 _LATEST = 2**63 - 1  # log times are unsigned in the file, and signed here
 
 
@@ -48,62 +52,86 @@ class MessageTable:
     def __len__(self) -> int:
         return len(self.log_time)
 
+    def without(self, rows: list[int]) -> "MessageTable":
+        """The table without some of its rows."""
+        return MessageTable(
+            *(np.delete(column, rows) for column in (self.log_time, self.chunk, self.offset))
+        )
+
 
 @dataclass
 class Contents:
     """Records of a file, collected while it is indexed.
 
-    `locations` holds (log time, chunk, offset) of the messages of each channel.
+    Attributes:
+        channels: by their number.
+        schemas: by their number.
+        locations: {channel: (log time, chunk, offset) of each message, one after the other}.
+        metadata: {name: (offset of the record's content in the file, its length)}.
+        attachments: likewise.
+        cut_short: whether the end of the file is missing.
+        broken_chunks: number of records that could not be read.
     """
 
     channels: dict[int, Channel] = field(default_factory=dict)
     schemas: dict[int, Schema] = field(default_factory=dict)
-    locations: dict[int, list[tuple[int, int, int]]] = field(default_factory=dict)
-    metadata: dict[str, dict[str, str]] = field(default_factory=dict)
-    attachments: dict[str, bytes] = field(default_factory=dict)
+    locations: dict[int, "array[int]"] = field(default_factory=dict)
+    metadata: dict[str, tuple[int, int]] = field(default_factory=dict)
+    attachments: dict[str, tuple[int, int]] = field(default_factory=dict)
     cut_short: bool = False
     broken_chunks: int = 0
 
+    @property
+    def message_count(self) -> int:
+        """Number of messages."""
+        return sum(map(len, self.locations.values())) // 3
+
     def add_message(self, channel: int, log_time: int, chunk: int, offset: int) -> None:
         """Add the location of a message."""
-        self.locations.setdefault(channel, []).append((min(log_time, _LATEST), chunk, offset))
+        self._of(channel).extend((min(log_time, _LATEST), chunk, offset))
+
+    def add_index(self, record: bytes, chunk: int) -> None:
+        """Add a message index: the locations of the messages of one channel in a chunk."""
+        channel, length = _INDEX_HEAD.unpack_from(record)
+        entries = np.frombuffer(record, "<u8", 2 * (length // 16), _INDEX_HEAD.size).reshape(-1, 2)
+        entries = np.minimum(entries, _LATEST).astype(np.int64)
+        rows = np.column_stack((entries[:, 0], np.full(len(entries), chunk), entries[:, 1]))
+        self._of(channel).frombytes(rows.tobytes())
+
+    def _of(self, channel: int) -> "array[int]":
+        return self.locations.setdefault(channel, array("q"))
 
 
-SCANNED = {
-    Opcode.SCHEMA,
-    Opcode.CHANNEL,
-    Opcode.MESSAGE,
-    Opcode.CHUNK,
-    Opcode.METADATA,
-    Opcode.ATTACHMENT,
-}
-"""Records of the data section that are read."""
+SCANNED = {Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE, Opcode.CHUNK}
+"""Records of the data section that are read as a whole when it is scanned."""
 
 
 def add_record(contents: Contents, opcode: int, record: bytes, position: int) -> None:
     """Add one record of the data section; `position` is its offset in the file."""
-    stream = ReadDataStream(BytesIO(record))
     if opcode == Opcode.SCHEMA:
-        schema = Schema.read(stream)
+        schema = Schema.read(ReadDataStream(BytesIO(record)))
         contents.schemas[schema.id] = schema
     elif opcode == Opcode.CHANNEL:
-        channel = Channel.read(stream)
+        channel = Channel.read(ReadDataStream(BytesIO(record)))
         contents.channels[channel.id] = channel
     elif opcode == Opcode.MESSAGE:
         channel_id, _, log_time, _ = MESSAGE_HEAD.unpack_from(record)
         contents.add_message(channel_id, log_time, UNCHUNKED, position)
-    elif opcode == Opcode.METADATA:
-        metadata = Metadata.read(stream)
-        contents.metadata[metadata.name] = metadata.metadata
-    elif opcode == Opcode.ATTACHMENT:
-        attachment = Attachment.read(stream)
-        contents.attachments[attachment.name] = attachment.data
     elif opcode == Opcode.CHUNK:
-        _add_chunk(contents, Chunk.read(stream), position)
+        _add_chunk(contents, chunk_data(record), position)
 
 
-def _add_chunk(contents: Contents, chunk: Chunk, position: int) -> None:
-    data = chunk_data(chunk)
+def record_name(opcode: int, start: bytes) -> str:
+    """Name of a metadata or attachment record by the first bytes of its content."""
+    # An attachment begins with two times.
+    at = 16 if opcode == Opcode.ATTACHMENT else 0
+    (length,) = struct.unpack_from("<I", start, at)
+    if at + 4 + length > len(start):
+        raise ValueError("a record's name is longer than the record")
+    return start[at + 4 : at + 4 + length].decode("utf-8")
+
+
+def _add_chunk(contents: Contents, data: bytes, position: int) -> None:
     offset = 0
     while offset + RECORD_HEAD.size <= len(data):
         opcode, length = RECORD_HEAD.unpack_from(data, offset)
@@ -113,13 +141,9 @@ def _add_chunk(contents: Contents, chunk: Chunk, position: int) -> None:
             contents.add_message(channel_id, log_time, position, offset)
         elif opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
             add_record(contents, opcode, data[start : start + length], position)
+        elif opcode == 0:
+            raise ValueError("a chunk holds records of no kind")
         offset = start + length
-
-
-def chunk_data(chunk: Chunk) -> bytes:
-    """Decompressed records of a chunk; its CRC is checked."""
-    stream, length = get_chunk_data_stream(chunk, validate_crc=True)
-    return stream.read(length)
 
 
 def _channel_info(channel: Channel, contents: Contents) -> ChannelInfo:
@@ -136,20 +160,22 @@ def _channel_info(channel: Channel, contents: Contents) -> ChannelInfo:
 
 def merged_channels(
     contents: Contents,
-) -> tuple[tuple[ChannelInfo, ...], dict[int, list[tuple[int, int, int]]]]:
-    """Channels with the locations of their messages; those of one topic and type are merged."""
+) -> tuple[tuple[ChannelInfo, ...], dict[int, MessageTable]]:
+    """Channels with tables of their messages; those of one topic and type are merged."""
     channels: dict[tuple[str, str, str], ChannelInfo] = {}
-    locations: dict[int, list[tuple[int, int, int]]] = {}
+    locations: dict[int, array[int]] = {}
     for channel in contents.channels.values():
         info = _channel_info(channel, contents)
         kind = (info.topic, info.encoding, info.schema_name)
         first = channels.setdefault(kind, info)
-        locations.setdefault(first.id, []).extend(contents.locations.get(channel.id, []))
-    return tuple(channels.values()), locations
+        locations.setdefault(first.id, array("q")).extend(
+            contents.locations.get(channel.id, array("q"))
+        )
+    return tuple(channels.values()), {i: _table(places) for i, places in locations.items()}
 
 
-def message_table(locations: list[tuple[int, int, int]]) -> MessageTable:
-    """Make a table of messages at (log time, chunk, offset), in any order."""
-    columns = np.array(locations, dtype=np.int64).reshape(-1, 3)
+def _table(locations: "array[int]") -> MessageTable:
+    """Table of messages at (log time, chunk, offset), in any order."""
+    columns = np.frombuffer(locations.tobytes(), dtype=np.int64).reshape(-1, 3)
     columns = columns[np.argsort(columns[:, 0], kind="stable")]
-    return MessageTable(columns[:, 0], columns[:, 1], columns[:, 2])
+    return MessageTable(*(np.ascontiguousarray(column) for column in columns.T))

@@ -4,6 +4,7 @@ import struct
 import threading
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator
+from io import BytesIO
 from pathlib import Path
 from typing import IO
 
@@ -11,9 +12,10 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Chunk, MessageIndex
+from mcap.records import Attachment, Metadata
 from zstandard import ZstdError
 
+from recordings.chunks import LARGEST_RECORD, chunk_data
 from recordings.errors import BrokenFileError, RecordingError
 from recordings.mcap_contents import (
     MESSAGE_HEAD,
@@ -22,10 +24,10 @@ from recordings.mcap_contents import (
     UNCHUNKED,
     ChannelInfo,
     Contents,
+    MessageTable,
     add_record,
-    chunk_data,
     merged_channels,
-    message_table,
+    record_name,
 )
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -34,6 +36,7 @@ _OTHER_MAGIC = {
     b"SQLite format 3\0": "an SQLite file, perhaps a ROS 2 bag in that format",
 }
 _CACHED_BYTES = 64 * 2**20  # of decompressed chunks
+_NAME_WITHIN = 4096  # bytes of a record
 _BROKEN = (
     McapError,
     OSError,
@@ -69,36 +72,74 @@ class McapFile:
         self._lock = threading.Lock()
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
         self._stream = _opened(path)
+        self._size = self._stream.seek(0, 2)
         try:
             contents = (None if salvage else self._from_index()) or self._scanned()
-            self.channels, locations = merged_channels(contents)
-            self.tables = {c.id: message_table(locations[c.id]) for c in self.channels}
+            self.channels, self._tables = merged_channels(contents)
         except _BROKEN as error:
             self._stream.close()
             raise BrokenFileError(f"{path} is a broken MCAP file: {_text(error)}.") from error
         self.cut_short = contents.cut_short
         self.broken_chunks = contents.broken_chunks
-        self.metadata = contents.metadata
-        self.attachments = contents.attachments
+        self._metadata = contents.metadata
+        self._attachments = contents.attachments
+
+    def table(self, channel: ChannelInfo) -> MessageTable:
+        """Locations of a channel's messages."""
+        return self._tables[channel.id]
+
+    @property
+    def message_count(self) -> int:
+        """Number of messages of all channels."""
+        return sum(map(len, self._tables.values()))
+
+    def leave_out(self, channel: ChannelInfo, indices: list[int]) -> None:
+        """Remove messages from a channel's table; the later ones move up."""
+        self._tables[channel.id] = self._tables[channel.id].without(indices)
 
     def message(self, channel: ChannelInfo, index: int) -> bytes:
-        """Payload of a channel's message, by its index in the channel's table."""
-        table = self.tables[channel.id]
+        """Payload of a channel's message, by its index in the channel's table.
+
+        Raises:
+            BrokenFileError: the file is broken there.
+            RecordingError: the file cannot be read any more, or is closed.
+        """
+        table = self._tables[channel.id]
         chunk, offset = int(table.chunk[index]), int(table.offset[index])
         try:
             with self._lock:
+                if self._stream.closed:
+                    raise RecordingError(f"{self.path} is closed.")
                 if chunk == UNCHUNKED:
-                    self._stream.seek(offset)
-                    _, length = RECORD_HEAD.unpack(self._stream.read(RECORD_HEAD.size))
-                    return self._stream.read(length)[MESSAGE_HEAD.size :]
+                    return self._record(offset, Opcode.MESSAGE)[MESSAGE_HEAD.size :]
                 data = self._chunk(chunk)
             _, length = RECORD_HEAD.unpack_from(data, offset)
             start = offset + RECORD_HEAD.size
             return data[start + MESSAGE_HEAD.size : start + length]
+        except OSError as error:
+            raise RecordingError(f"{self.path} cannot be read: {error.strerror}.") from error
         except _BROKEN as error:
             raise BrokenFileError(
                 f"{self.path} is broken at message {index} of {channel.topic}: {_text(error)}."
             ) from error
+
+    def attachment(self, name: str) -> bytes | None:
+        """Content of an attachment; None where there is none, or it cannot be read."""
+        if name not in self._attachments:
+            return None
+        try:
+            return Attachment.read(self._small_record(*self._attachments[name])).data
+        except _BROKEN:
+            return None
+
+    def metadata(self, name: str) -> dict[str, str] | None:
+        """A metadata record; None where there is none, or it cannot be read."""
+        if name not in self._metadata:
+            return None
+        try:
+            return Metadata.read(self._small_record(*self._metadata[name])).metadata
+        except _BROKEN:
+            return None
 
     def in_file_order(
         self, channels: Iterable[ChannelInfo]
@@ -106,7 +147,7 @@ class McapFile:
         """The messages of several channels as (channel, index, payload), each chunk read once."""
         messages: list[tuple[int, int, ChannelInfo, int]] = []
         for channel in channels:
-            table = self.tables[channel.id]
+            table = self._tables[channel.id]
             rows = zip(table.chunk.tolist(), table.offset.tolist(), strict=True)
             messages += [(chunk, offset, channel, i) for i, (chunk, offset) in enumerate(rows)]
         for _, _, channel, index in sorted(messages, key=lambda message: message[:2]):
@@ -122,12 +163,36 @@ class McapFile:
         if start in self._chunks:
             self._chunks.move_to_end(start)
             return self._chunks[start]
-        self._stream.seek(start + RECORD_HEAD.size)
-        data = chunk_data(Chunk.read(ReadDataStream(self._stream)))
+        data = chunk_data(self._record(start, Opcode.CHUNK))
         self._chunks[start] = data
         while len(self._chunks) > 1 and sum(map(len, self._chunks.values())) > _CACHED_BYTES:
             self._chunks.popitem(last=False)
         return data
+
+    def _record(self, position: int, opcode: int) -> bytes:
+        """Content of the record at a position; errors as in `_place` and `_content`."""
+        return self._content(*self._place(position, opcode))
+
+    def _place(self, position: int, opcode: int) -> tuple[int, int]:
+        """Where the content of a record begins, and its length; ValueError for another kind."""
+        self._stream.seek(position)
+        found, length = RECORD_HEAD.unpack(self._stream.read(RECORD_HEAD.size))
+        if found != opcode:
+            raise ValueError(f"a record has the opcode {found} instead of {opcode}")
+        return position + RECORD_HEAD.size, length
+
+    def _content(self, start: int, length: int) -> bytes:
+        """Bytes of the file; ValueError where it has not as many, or they are too many."""
+        if start + length > self._size:
+            raise ValueError("a record is longer than the file")
+        if length > LARGEST_RECORD:
+            raise ValueError(f"a record of {length} bytes is larger than {LARGEST_RECORD}")
+        self._stream.seek(start)
+        return self._stream.read(length)
+
+    def _small_record(self, start: int, length: int) -> ReadDataStream:
+        with self._lock:
+            return ReadDataStream(BytesIO(self._content(start, length)))
 
     def _from_index(self) -> Contents | None:
         try:
@@ -138,35 +203,35 @@ class McapFile:
     def _indexed(self) -> Contents | None:
         """Contents by the summary, None where it is missing or does not cover all messages."""
         self._stream.seek(0)
-        reader = SeekingReader(self._stream)
-        summary = reader.get_summary()
+        summary = SeekingReader(self._stream).get_summary()
         if summary is None or not summary.chunk_indexes or summary.statistics is None:
             return None
         contents = Contents(dict(summary.channels), dict(summary.schemas))
+        read = 0
         for index in summary.chunk_indexes:
             for offset in index.message_index_offsets.values():
-                self._stream.seek(offset + RECORD_HEAD.size)
-                entries = MessageIndex.read(ReadDataStream(self._stream))
-                for log_time, inside in entries.records:
-                    contents.add_message(
-                        entries.channel_id, log_time, index.chunk_start_offset, inside
-                    )
+                record = self._record(offset, Opcode.MESSAGE_INDEX)
+                read += len(record)
+                if read > self._size:
+                    return None  # indexes that point to the same records
+                contents.add_index(record, index.chunk_start_offset)
+        for kind, indexes, into in (
+            (Opcode.METADATA, summary.metadata_indexes, contents.metadata),
+            (Opcode.ATTACHMENT, summary.attachment_indexes, contents.attachments),
+        ):
+            for index in indexes:
+                into[index.name] = self._place(index.offset, kind)
         complete = (
-            sum(map(len, contents.locations.values())) == summary.statistics.message_count
+            contents.message_count == summary.statistics.message_count
             and set(contents.locations) <= set(contents.channels)
             and all(c.schema_id in (0, *contents.schemas) for c in contents.channels.values())
             and len(summary.metadata_indexes) == summary.statistics.metadata_count
             and len(summary.attachment_indexes) == summary.statistics.attachment_count
         )
-        if not complete:
-            return None
-        contents.metadata = {m.name: m.metadata for m in reader.iter_metadata()}
-        contents.attachments = {a.name: a.data for a in reader.iter_attachments()}
-        return contents
+        return contents if complete else None
 
     def _scanned(self) -> Contents:
         contents = Contents()
-        size = self._stream.seek(0, 2)
         position = len(MAGIC)
         while True:
             self._stream.seek(position)
@@ -177,16 +242,21 @@ class McapFile:
             opcode, length = RECORD_HEAD.unpack(head)
             if opcode == Opcode.DATA_END:
                 return contents
-            if position + RECORD_HEAD.size + length > size:
+            start = position + RECORD_HEAD.size
+            if start + length > self._size:
                 contents.cut_short = True
                 return contents
-            if opcode in SCANNED:
-                try:
-                    add_record(contents, opcode, self._stream.read(length), position)
-                except _BROKEN:
-                    # Records are independent: those after a broken one can still be read.
-                    contents.broken_chunks += 1
-            position += RECORD_HEAD.size + length
+            try:
+                if opcode in SCANNED:
+                    add_record(contents, opcode, self._content(start, length), position)
+                elif opcode in (Opcode.METADATA, Opcode.ATTACHMENT):
+                    name = record_name(opcode, self._content(start, min(length, _NAME_WITHIN)))
+                    into = contents.metadata if opcode == Opcode.METADATA else contents.attachments
+                    into[name] = start, length
+            except _BROKEN:
+                # Records are independent: those after a broken one can still be read.
+                contents.broken_chunks += 1
+            position = start + length
 
 
 def _opened(path: Path) -> IO[bytes]:

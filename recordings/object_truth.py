@@ -1,6 +1,7 @@
 """Finding the truth of a recording, and transforming it into the fixed frame."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from recordings.contents import Topic, Use, named_truth
 from recordings.decoding import Decoder, stamp_of
@@ -90,12 +91,17 @@ def point_truths(
             f"The truth of points is given in {topic.frame} and not in {fixed_frame}; "
             f"it is not used."
         ]
-    numbers = {f: f.removeprefix(OBJECT_FRAME) for f in tree.frames if f.startswith(OBJECT_FRAME)}
-    poses = {
-        int(number): tree.over(fixed_frame, frame, len(table.stamps))
-        for frame, number in numbers.items()
+    numbers = {f.removeprefix(OBJECT_FRAME): f for f in tree.frames if f.startswith(OBJECT_FRAME)}
+    frames = {
+        int(number): frame
+        for number, frame in numbers.items()
         if number.isdecimal() and len(number) <= _DIGITS and tree.connected(fixed_frame, frame)
     }
+
+    def poses(number: int) -> NDArray[np.float64] | None:
+        frame = frames.get(number)
+        return None if frame is None else tree.over(fixed_frame, frame, len(table.stamps))
+
     return PointTruths(topic, decoder, table.stamps, 0.5 * table.period, poses), []
 
 

@@ -1,6 +1,7 @@
 """Opening a recording: uses of topics, poses of sensors, robot and truth."""
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from recordings.contents import Topic, Use, topics_of
@@ -31,7 +32,6 @@ from recordings.sensors import (
     rig_sensors,
     unfit_intrinsics,
 )
-from recordings.stamp_index import STAMP_INDEX
 from recordings.transforms import read_transforms
 from robot_assets import Rig, Robot, Sensor, load_rig, load_robot
 
@@ -44,6 +44,7 @@ def open_recording(
     truth_frame: str | None = None,
     rig: Rig | None = None,
     robot: Robot | None = None,
+    mesh_folders: Sequence[str | Path] = (),
 ) -> Recording:
     """Open a recording.
 
@@ -55,6 +56,8 @@ def open_recording(
         rig: extrinsics and intrinsics of the sensors, by name, for recordings without; default:
             the rig in the file, or the paper's where the joints are a Panda's.
         robot: default: the recording's description, or a Panda where the joints are a Panda's.
+        mesh_folders: with the meshes of the recording's description, beside those of packages that
+            are found by their names; nothing else is read because a recording names it.
 
     Returns:
         The recording; close it, or use it in a `with` statement.
@@ -62,34 +65,35 @@ def open_recording(
     Raises:
         RecordingError: the file cannot be read, or holds nothing to estimate from.
     """
+    chosen = _Chosen(fixed_frame, truth_frame, rig, robot, tuple(mesh_folders))
     try:
-        return _opened(McapFile(Path(path)), fixed_frame, truth_frame, rig, robot)
+        return _opened(McapFile(Path(path)), chosen)
     except BrokenFileError:
         # Use the parts that are not broken.
-        return _opened(McapFile(Path(path), salvage=True), fixed_frame, truth_frame, rig, robot)
+        return _opened(McapFile(Path(path), salvage=True), chosen)
 
 
-def _opened(
-    file: McapFile,
-    fixed_frame: str | None,
-    truth_frame: str | None,
-    rig: Rig | None,
-    robot: Robot | None,
-) -> Recording:
+@dataclass(frozen=True)
+class _Chosen:
+    """Arguments of `open_recording` beside the path."""
+
+    fixed_frame: str | None
+    truth_frame: str | None
+    rig: Rig | None
+    robot: Robot | None
+    mesh_folders: tuple[str | Path, ...]
+
+
+def _opened(file: McapFile, chosen: _Chosen) -> Recording:
     try:
-        return _open(file, fixed_frame, truth_frame, rig, robot)
+        return _open(file, chosen)
     except BaseException:
         file.close()
         raise
 
 
-def _open(
-    file: McapFile,
-    fixed_frame: str | None,
-    truth_frame: str | None,
-    rig: Rig | None,
-    robot: Robot | None,
-) -> Recording:
+def _open(file: McapFile, chosen: _Chosen) -> Recording:
+    rig, robot = chosen.rig, chosen.robot
     decoder = Decoder(file)
     topics = topics_of(file, decoder)
     provenance = provenance_of(file)
@@ -102,23 +106,18 @@ def _open(
         raise RecordingError(_nothing_to_estimate_from(file, topics))
     if rig is not None:
         _check_rig(file, rig, found)
-    if STAMP_INDEX not in file.attachments:
+    if not decoder.has_stamp_index:
         decoder.read_stamps(t.channel for t in topics if t.use in (Use.DEPTH, Use.STATUS))
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, decoder, table.stamps)
+    warnings += [f"{t.name} is not used: {t.why_not}." for t in topics if t.damaged]
     warnings += about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
 
-    names = joint_names(topics, file, decoder)
+    names = joint_names(topics, decoder)
     if robot is None:
-        robot, more = recorded_robot(topics, decoder, names)
+        robot, more = recorded_robot(topics, decoder, names, chosen.mesh_folders)
         warnings += more
-    if robot is not None and (missing := robot.missing_meshes):
-        count = "One mesh" if len(missing) == 1 else f"{len(missing)} meshes"
-        warnings.append(
-            f"{count} of {robot.name} not on this machine, such as {missing[0]}; what they show "
-            f"is neither drawn nor removed from the clouds."
-        )
     if rig is not None and robot is not None:
         rig.check_links(robot.links, robot.name)
     by_rig: list[Sensor | None] = [in_rig for _, _, in_rig in found]
@@ -128,12 +127,12 @@ def _open(
     frames = [topic.frame for topic, _, _ in found]
     robot_poses = None
     if robot is None:
-        fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, None, {})
+        fixed = chosen_fixed_frame(chosen.fixed_frame, file, tree, frames, None, {})
     else:
         match, more = matched(robot, names)
         in_tree = link_frames(robot, match.prefix, tree.frames)
-        fixed = chosen_fixed_frame(fixed_frame, file, tree, frames, robot, in_tree)
-        positions, doubled = joint_positions(topics, file, decoder, match, table.stamps)
+        fixed = chosen_fixed_frame(chosen.fixed_frame, file, tree, frames, robot, in_tree)
+        positions, doubled = joint_positions(topics, decoder, match, table.stamps)
         warnings += more + doubled + beyond_limits(robot, positions)
         placed = [link for link, frame in in_tree.items() if frame in tree.frames]
         warnings += unknown_joints(robot, positions, placed)
@@ -141,7 +140,7 @@ def _open(
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
     warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
 
-    truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, truth_frame)
+    truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, chosen.truth_frame)
     warnings += more
     points, more = point_truths(topics, decoder, table, tree, fixed)
     warnings += more
@@ -156,7 +155,7 @@ def _open(
             truth=truth,
             point_truths=points,
             fixed_frame=fixed,
-            truth_frame=truth_frame,
+            truth_frame=chosen.truth_frame,
             provenance=provenance,
             rig=own_rig,
             warnings=tuple(warnings),

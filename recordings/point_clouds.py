@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.errors import RecordingError
+from recordings.errors import MisfitError, few
 
 # sensor_msgs/PointField: the number of a datatype, and NumPy's letter for it.
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -15,21 +15,22 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded
     """Fields of a cloud, (height * width,) each, in the order of the points.
 
     Raises:
-        RecordingError: the cloud has too few bytes for its size, or fields that do not fit.
+        MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
     names, step = [field.name for field in cloud.fields], cloud.point_step
+    if cloud.width * cloud.height == 0:
+        return {name: np.zeros(0) for name in names}
     row_step = max(cloud.row_step, cloud.width * step)
-    needed = (cloud.height - 1) * row_step + cloud.width * step if cloud.height else 0
+    needed = (cloud.height - 1) * row_step + cloud.width * step
     data = bytes(cloud.data)
     fits = all(
         f.datatype in _KINDS and f.offset + np.dtype(_KINDS[f.datatype]).itemsize <= step
         for f in cloud.fields
     )
     if len(data) < needed or not fits or len(set(names)) < len(names):
-        raise RecordingError(
-            f"A cloud of points of {cloud.header.frame_id} has {len(data)} bytes for "
-            f"{cloud.width * cloud.height} points of {step}, and the fields {', '.join(names)}, "
-            "which does not fit together."
+        raise MisfitError(
+            f"it has {len(data)} bytes for {cloud.width * cloud.height} points of {step}, and the "
+            f"fields {few(names)}, which does not fit together"
         )
     order = ">" if cloud.is_bigendian else "<"
     layout = np.dtype(
@@ -44,5 +45,5 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded
         np.frombuffer(data, dtype=layout, count=cloud.width, offset=row * row_step)
         for row in range(cloud.height)
     ]
-    points = np.concatenate(rows) if rows else np.zeros(0, dtype=layout)
+    points = np.concatenate(rows)
     return {name: points[name] for name in names}

@@ -1,7 +1,6 @@
 """Truth of every point, read from a recording."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any
@@ -13,23 +12,34 @@ from scipy.spatial import KDTree
 from recordings.cloud import Cloud
 from recordings.contents import Topic
 from recordings.decoding import Decoder
+from recordings.errors import MisfitError
 from recordings.point_clouds import fields_of
-from recordings.tracks import Stamps
+from recordings.tracks import FARTHEST, Stamps
 from recordings.transforms import Transform, inverse
 from recordings.twists import Twist, fitted_twist
 
-_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _REAL = ("x", "y", "z", "vx", "vy", "vz")
 _NEAREST = 0.2  # metres: noise of a few percent of some metres, well below the size of an object
-_CACHED_FRAMES = 64
+_CACHED_FRAMES, _CACHED_OBJECTS = 64, 256
 
 
-@dataclass(frozen=True)
 class _FrameTruth:
-    table: dict[str, NDArray[Any]]
-    points: NDArray[np.float64]
-    velocity: NDArray[np.float64]
-    twists: dict[int, Twist]
+    """Truth at one frame: its table, and positions and velocities (N, 3) of it."""
+
+    def __init__(self, table: dict[str, NDArray[Any]]) -> None:
+        self.table = table
+        self.points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
+        self.velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
+        self._twists: dict[int, Twist] = {}
+
+    def twist(self, number: int) -> Twist | None:
+        """Twist of an object, None where it has no points."""
+        if number not in self._twists:
+            mine = self.table["object"] == number
+            if not mine.any():
+                return None
+            self._twists[number] = fitted_twist(self.points[mine], self.velocity[mine])
+        return self._twists[number]
 
 
 class PointTruths:
@@ -40,7 +50,8 @@ class PointTruths:
         decoder: of the file.
         stamps: (K,) nanoseconds of the frames.
         tolerance: largest difference between a message's stamp and a frame's, nanoseconds.
-        poses: {object: its pose (K, 4, 4) at the frames, NaN where unknown} as far as recorded.
+        poses: gives the poses (K, 4, 4) of an object, by its number, at the frames, NaN where
+            unknown; None for one without.
     """
 
     def __init__(
@@ -49,9 +60,10 @@ class PointTruths:
         decoder: Decoder,
         stamps: Stamps,
         tolerance: float,
-        poses: Mapping[int, NDArray[np.float64]],
+        poses: Callable[[int], NDArray[np.float64] | None],
     ) -> None:
-        self._topic, self._decoder, self._poses = topic, decoder, poses
+        self._topic, self._decoder = topic, decoder
+        self._poses = lru_cache(maxsize=_CACHED_OBJECTS)(poses)
         self._message = _nearest(decoder.header_stamps(topic.channel), stamps, tolerance)
         self._seconds = (stamps - stamps[0]) * 1e-9
         self._frame = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
@@ -95,14 +107,16 @@ class PointTruths:
                 deviation = np.zeros(3)
             else:
                 motion = self._integrated(number, source_k, target_k)
-                deviation = velocity[mine] - frame.twists[number].velocity(points)
+                twist = frame.twist(number)
+                assert twist is not None  # some of its points are in the cloud
+                deviation = velocity[mine] - twist.velocity(points)
             moved = points @ motion[:3, :3].T + motion[:3, 3]
             velocity[mine] = (moved - points) / seconds + deviation
         return velocity
 
     def _pose_change(self, number: int, source_k: int, target_k: int) -> Transform | None:
         """Motion (4, 4) of an object from the source to the target frame, None where unknown."""
-        poses = self._poses.get(number)
+        poses = self._poses(number)
         if poses is None or not np.isfinite(poses[[source_k, target_k]]).all():
             return None
         return poses[target_k] @ inverse(poses[source_k])
@@ -110,9 +124,9 @@ class PointTruths:
     def _integrated(self, number: int, source_k: int, target_k: int) -> Transform:
         """Motion (4, 4) by the twists of the frames in which the object is seen."""
         seen = [
-            (float(self._seconds[k]), frame.twists[number])
+            (float(self._seconds[k]), twist)
             for k in range(source_k, target_k + 1)
-            if (frame := self._frame(k)) is not None and number in frame.twists
+            if (frame := self._frame(k)) and (twist := frame.twist(number))
         ]
         # The last twist holds until the target frame.
         seen.append((float(self._seconds[target_k]), seen[-1][1]))
@@ -125,25 +139,31 @@ class PointTruths:
         index = int(self._message[k])
         if index < 0:
             return None
-        table = truth_fields(self._decoder.decode(self._topic.channel, index))
-        points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
-        velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
-        twists = {
-            int(n): fitted_twist(points[table["object"] == n], velocity[table["object"] == n])
-            for n in np.unique(table["object"]).tolist()
-        }
-        return _FrameTruth(table, points, velocity, twists)
+        cloud = self._decoder.readable(self._topic.channel, index)
+        if cloud is None:
+            return None
+        try:
+            table = truth_fields(cloud)
+        except MisfitError as error:
+            self._decoder.left_out.add(self._topic.name, index, str(error))
+            return None
+        return _FrameTruth(table)
 
 
 def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor_msgs/PointCloud2)
     """Fields of a cloud with the truth of points, (N,) each: floats, and numbers as integers.
 
+    Floats beyond `FARTHEST` are NaN; numbers that are none are -1.
+
     Raises:
-        RecordingError: the cloud has too few bytes for its size, or fields that do not fit.
+        MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
     table = {name: values.astype(np.float64) for name, values in fields_of(cloud).items()}
+    near = {name: np.abs(values) <= FARTHEST for name, values in table.items()}
     return {
-        name: values if name in _REAL else np.nan_to_num(values, nan=-1.0).astype(np.int64)
+        name: np.where(near[name], values, np.nan)
+        if name in _REAL
+        else np.where(near[name], values, -1.0).astype(np.int64)
         for name, values in table.items()
     }
 
@@ -191,10 +211,8 @@ def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.in
 
 def _rows_by_position(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
     points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
-    if len(cloud.points) == 0:
-        return np.full(len(cloud.points), -1, dtype=np.int64)
     real = np.flatnonzero(np.isfinite(points).all(axis=1))
-    if len(real) == 0:
+    if len(real) == 0 or len(cloud.points) == 0:
         return np.full(len(cloud.points), -1, dtype=np.int64)
     distance, row = KDTree(points[real]).query(cloud.points)
     return np.where(distance <= _NEAREST, real[row], -1)

@@ -16,7 +16,7 @@ def provenance_of(file: McapFile) -> Provenance | None:
     Raises:
         RecordingError: a value of the record is missing or wrong.
     """
-    record = file.metadata.get(PROVENANCE_RECORD)
+    record = file.metadata(PROVENANCE_RECORD)
     if record is None:
         return None
     try:

@@ -20,7 +20,7 @@ class RangeFormat:
             encoding 'rgb8' is no distance". The first message of a topic decides whether the topic
             is used.
         ranges: (rows, columns) metres along the optical axis, in the order of the message; values
-            that are not finite or not above 0 are invalid. RecordingError for a broken message.
+            that are not finite or not above 0 are invalid. MisfitError for a broken message.
         directions: (rows, columns, 3) rays with z = 1 in the sensor's frame (REP 103, optical), NaN
             where a zone's is not known, for messages that know them; they count where neither a
             rig nor a CameraInfo gives intrinsics. None where messages know none.

@@ -1,6 +1,7 @@
 """Robot of a recording, and the frames of its links in /tf."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from pathlib import Path
 
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder
@@ -9,7 +10,7 @@ from robot_assets import Robot, RobotError, load_robot
 
 
 def recorded_robot(
-    topics: list[Topic], decoder: Decoder, joints: list[str]
+    topics: list[Topic], decoder: Decoder, joints: list[str], mesh_folders: Sequence[str | Path]
 ) -> tuple[Robot | None, list[str]]:
     """Find the robot of a recording: by its description, or a Panda by its joints.
 
@@ -17,6 +18,7 @@ def recorded_robot(
         topics: of the file.
         decoder: of the file.
         joints: all recorded names.
+        mesh_folders: with the meshes of the description.
 
     Returns:
         The robot, None where there is none, and warnings about the reason.
@@ -24,7 +26,7 @@ def recorded_robot(
     described = next((topic for topic in topics if topic.use is Use.ROBOT), None)
     if described is not None:
         try:
-            robot = load_robot(decoder.decode(described.channel, 0).data)
+            robot = load_robot(decoder.first(described.channel).data, mesh_folders)
         except RobotError as error:
             return None, [str(error)]
         return robot, []

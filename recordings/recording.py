@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from recordings.cloud import NO_STATUS, Cloud, Reading, read_only
 from recordings.decoding import Decoder
-from recordings.errors import RecordingError
+from recordings.errors import MisfitError
 from recordings.frame import Provenance
 from recordings.frame_table import FrameTable
 from recordings.grids import common_grid, padded
@@ -78,7 +78,6 @@ class Recording:
         self.provenance = parts.provenance
         self.rig: Rig | None = parts.rig
         self.duplicates = parts.frames.duplicates
-        self._warnings: dict[str, None] = dict.fromkeys(parts.warnings)
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
         # The point in the optical frame is the reading times its ray.
         self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
@@ -97,7 +96,8 @@ class Recording:
     @property
     def warnings(self) -> tuple[str, ...]:
         """Messages about unusable parts; reading further frames may add some."""
-        return tuple(self._warnings)
+        robot = self.robot.mesh_warnings if self.robot else []
+        return (*self._parts.warnings, *robot, *self._parts.decoder.left_out.sentences())
 
     @property
     def has_truth(self) -> bool:
@@ -242,14 +242,18 @@ class Recording:
     ) -> tuple[NDArray[np.float64], NDArray[np.uint8] | None]:
         """Readings of a sensor in metres, and their status, None without."""
         decoder = self._parts.decoder
-        image = decoder.decode(stream.topic.channel, index)
+        nothing = np.full(stream.sensor.grid, np.nan)
+        if (image := decoder.readable(stream.topic.channel, index)) is None:
+            return nothing, None
         status = None
         if stream.status and (row := stream.status_index[index]) >= 0:
-            status = decoder.decode(stream.status.channel, int(row))
+            status = decoder.readable(stream.status.channel, int(row))
+            if status is None:
+                return nothing, None  # ranges may be valid or not
         try:
             codes = status_codes(status, stream.sensor) if status is not None else None
             return readings(image, status, stream.sensor, stream.form), codes
-        except RecordingError as error:
+        except MisfitError as error:
             # One bad image does not cost the frame; only this sensor is left out.
-            self._warnings[f"{stream.topic.name}: {error} Such images are left out."] = None
-            return np.full(stream.sensor.grid, np.nan), None
+            decoder.left_out.add(stream.topic.name, index, str(error))
+            return nothing, None

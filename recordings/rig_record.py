@@ -20,7 +20,7 @@ def rig_of(file: McapFile) -> tuple[Rig | None, list[str]]:
     Returns:
         The rig, and a warning where it is not usable.
     """
-    content = file.attachments.get(RIG_ATTACHMENT)
+    content = file.attachment(RIG_ATTACHMENT)
     if content is None:
         return None, []
     if len(content) > _LARGEST:

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from recordings.transforms import Transform, TransformTree, inverse
 from robot_assets import Robot
 
-_CACHED_FRAMES = 256
+_CACHED_FRAMES, _LEAST_CACHED = 256, 8
+_CACHED_LINKS = 2**17  # of all cached frames, each some 250 bytes
 
 
 class RobotPoses:
@@ -36,7 +37,8 @@ class RobotPoses:
         self._tree = tree
         self._fixed_frame = fixed_frame
         self._frames = link_frames or {link: link for link in robot.links}
-        self.link_poses = lru_cache(maxsize=_CACHED_FRAMES)(self._link_poses)
+        kept = min(max(_CACHED_LINKS // len(robot.links), _LEAST_CACHED), _CACHED_FRAMES)
+        self.link_poses = lru_cache(maxsize=kept)(self._link_poses)
 
     def joint_positions(self, k: int) -> dict[str, float]:
         """{joint: rad or m} of the joints whose position is known at frame `k`."""
@@ -47,34 +49,25 @@ class RobotPoses:
         """(K,) whether `link_poses` has the link; no forward kinematics are computed."""
         if link not in self._frames:
             return np.zeros(frames, dtype=bool)
-        by_joints = self._known_by_joints(frames)
         base = self._frames[self.robot.base]
         known = np.full(frames, base == self._fixed_frame)
         if base in self._tree.frames:
             known |= self._tree.known(self._fixed_frame, base, frames)
         for other, frame in self._frames.items():
             if frame == self._fixed_frame:
-                known |= by_joints[other]
-        known &= by_joints[link]
+                known |= self._known_by_joints(other, frames)
+        known &= self._known_by_joints(link, frames)
         if self._frames[link] in self._tree.frames:
             known |= self._tree.known(self._fixed_frame, self._frames[link], frames)
         return known
 
-    def _known_by_joints(self, frames: int) -> dict[str, NDArray[np.bool_]]:
-        """{link: (K,) whether its pose relative to the base is known by the joints}."""
-        known = {link: np.zeros(frames, dtype=bool) for link in self.robot.links}
-        names = list(self._positions)
-        if not names:
-            return known
-        finite = np.isfinite(np.stack([self._positions[name] for name in names]))
-        # The same few joints are known at most frames.
-        patterns, pattern = np.unique(finite, axis=1, return_inverse=True)
-        for number, column in enumerate(patterns.T):
-            joints = [name for name, is_known in zip(names, column, strict=True) if is_known]
-            if not joints:
-                continue
-            for link in self.robot.links_placed_by(joints):
-                known[link] |= pattern.ravel() == number
+    def _known_by_joints(self, link: str, frames: int) -> NDArray[np.bool_]:
+        """(K,) whether a link's pose relative to the base is known by the joints."""
+        known = np.zeros(frames, dtype=bool)
+        for position in self._positions.values():
+            known |= np.isfinite(position)
+        for joint in self.robot.joints_placing(link):
+            known &= np.isfinite(self._positions[joint]) if joint in self._positions else False
         return known
 
     def _link_poses(self, k: int) -> dict[str, Transform]:

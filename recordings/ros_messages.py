@@ -4,13 +4,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.typesys import Stores, get_typestore
 from scipy.spatial.transform import Rotation
 
 from recordings.frame import PointTruth
+from recordings.message_types import STANDARD
 from robot_assets import SensorModel
 
-_STORE = get_typestore(Stores.ROS2_HUMBLE)
 _POINT_FIELDS = (
     ("x", "f4"),
     ("y", "f4"),
@@ -26,12 +25,12 @@ _POINT_FIELD_TYPES = {"u1": 2, "u2": 4, "f4": 7}
 
 def schema_text(kind: str) -> bytes:
     """Definition of a type such as "sensor_msgs/msg/Image", with the types that it uses."""
-    return _STORE.generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
+    return STANDARD.generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
 
 
 def serialise(message: Any) -> bytes:  # noqa: ANN401 (a message of any type)
     """Serialise a message as CDR."""
-    return bytes(_STORE.serialize_cdr(message, message.__msgtype__))
+    return bytes(STANDARD.serialize_cdr(message, message.__msgtype__))
 
 
 def header(stamp: int, frame: str) -> Any:  # noqa: ANN401
@@ -182,7 +181,7 @@ def points(stamp: int, frame: str, truth: PointTruth, sensors: int) -> Any:  # n
 
 
 def _make(kind: str, **fields: Any) -> Any:  # noqa: ANN401
-    return _STORE.types[kind](**fields)
+    return STANDARD.types[kind](**fields)
 
 
 def _vector(values: NDArray[np.float64]) -> Any:  # noqa: ANN401

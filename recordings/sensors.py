@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from recordings.contents import Topic, Use, camera_matrix, parent
 from recordings.decoding import Decoder
 from recordings.depth_images import DEPTH_IMAGE, pixels
-from recordings.errors import RecordingError
+from recordings.errors import MisfitError, RecordingError
 from recordings.grids import Grid, size_text
 from recordings.range_format import RangeFormat
 from recordings.range_formats import range_format
@@ -22,6 +22,10 @@ from robot_assets import Sensor as RigSensor
 # ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); with any other the reading is
 # no distance, however plausible.
 VALID_STATUS = (5, 9)
+MOST_SENSORS = 1024
+"""Sensors of a recording; one with more is refused, as with more zones."""
+MOST_ZONES = 2**18
+"""Zones of all sensors of a recording, such as 64 sensors of 64 x 64."""
 
 
 @dataclass(frozen=True)
@@ -69,19 +73,29 @@ def recorded_sensors(
 
     Returns:
         For each depth topic its sensor, and the sensor of the rig that it matches by name.
+
+    Raises:
+        RecordingError: there are too many of them.
     """
+    depth = [topic for topic in topics if topic.use is Use.DEPTH]
+    zones = sum(rows * columns for rows, columns in map(_grid, depth))
+    if len(depth) > MOST_SENSORS or zones > MOST_ZONES:
+        raise RecordingError(
+            f"The recording has {len(depth)} sensors with {zones} zones, more than {MOST_SENSORS} "
+            f"sensors or {MOST_ZONES} zones."
+        )
+    infos = _Infos(topics)
     named_by = {depth_topic(topic_part(s.name)): s for s in own.sensors} if own else {}
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]] = []
-    depth = [topic for topic in topics if topic.use is Use.DEPTH]
     matches = [_sensor_of(rig, topic) if rig else None for topic in depth]
     own_sensors = [named_by.get(topic.name) for topic in depth]
     names = names_and_rings([topic.name for topic in depth], matches, own_sensors)
     for topic, in_rig, (name, ring) in zip(depth, matches, names, strict=True):
-        info = next((i for i in _infos(topic, topics) if i.grid == topic.grid), None)
+        info = next((i for i in infos.of(topic) if i.grid == topic.grid), None)
         if rig and in_rig:
             sensor = _by_model(name, ring, topic, rig.model)
         elif info:
-            sensor = _by_camera_info(name, ring, topic, decoder.decode(info.channel, 0))
+            sensor = _by_camera_info(name, ring, topic, decoder.first(info.channel))
         else:
             sensor = _by_message(name, ring, topic, decoder)
         found.append((topic, sensor, in_rig))
@@ -98,8 +112,9 @@ def unfit_intrinsics(
 ) -> list[str]:
     """Warnings about sensors without a rig whose CameraInfo is for images of another size."""
     warnings: list[str] = []
+    candidates = _Infos(topics)
     for topic in [topic for topic, _, in_rig in found if in_rig is None]:
-        infos = _infos(topic, topics)
+        infos = candidates.of(topic)
         if infos and all(info.grid != topic.grid for info in infos):
             warnings.append(
                 f"{infos[0].name} is for images of {size_text(_grid(infos[0]))} zones and those of "
@@ -109,13 +124,23 @@ def unfit_intrinsics(
     return warnings
 
 
-def _infos(topic: Topic, topics: list[Topic]) -> list[Topic]:
-    """Candidate intrinsics of a depth topic: those with its frame first, then those beside it."""
-    infos = [info for info in topics if info.use is Use.CAMERA_INFO]
-    return [
-        *(info for info in infos if info.frame == topic.frame),
-        *(info for info in infos if parent(info.name) == parent(topic.name)),
-    ]
+class _Infos:
+    """Topics of intrinsics by their frames and places in the tree of topics."""
+
+    def __init__(self, topics: list[Topic]) -> None:
+        self._by_frame: dict[str, list[Topic]] = {}
+        self._beside: dict[str, list[Topic]] = {}
+        for info in topics:
+            if info.use is Use.CAMERA_INFO:
+                self._by_frame.setdefault(info.frame, []).append(info)
+                self._beside.setdefault(parent(info.name), []).append(info)
+
+    def of(self, topic: Topic) -> list[Topic]:
+        """Candidates for a depth topic: those with its frame first, then those beside it."""
+        return [
+            *self._by_frame.get(topic.frame, []),
+            *self._beside.get(parent(topic.name), []),
+        ]
 
 
 def _grid(topic: Topic) -> Grid:
@@ -139,13 +164,12 @@ def readings(
         form: of the message.
 
     Raises:
-        RecordingError: a message has another size or encoding, or too few bytes.
+        MisfitError: a message has another size or encoding, or too few bytes.
     """
     grid, found = sensor.images or sensor.grid, form.grid(message)
     if found != grid:
-        frame = message.header.frame_id if hasattr(message, "header") else sensor.name
         held = found if isinstance(found, str) else f"it is {size_text(found)}"
-        raise RecordingError(f"A message of {frame}: {held}, and not {size_text(grid)} distances.")
+        raise MisfitError(f"{held}, and not {size_text(grid)} distances")
     values = form.ranges(message)
     with np.errstate(invalid="ignore"):
         valid = np.isfinite(values) & (values > 0)
@@ -161,7 +185,7 @@ def status_codes(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # n
     """ST's target status (rows, columns) of a status image, in the order of the readings.
 
     Raises:
-        RecordingError: the image is of another size, or has fewer bytes than that says.
+        MisfitError: the image is of another size, or has fewer bytes than that says.
     """
     return sensor.arrange(_status_pixels(status, sensor))
 
@@ -169,9 +193,8 @@ def status_codes(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # n
 def _status_pixels(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # noqa: ANN401
     grid = sensor.images or sensor.grid
     if (status.height, status.width) != grid:
-        raise RecordingError(
-            f"A status image of {status.header.frame_id} is {status.width} x {status.height}, and "
-            f"not {size_text(grid)}."
+        raise MisfitError(
+            f"its status image is {status.width} x {status.height}, and not {size_text(grid)}"
         )
     return pixels(status, np.dtype(np.uint8))
 
@@ -196,7 +219,7 @@ def _by_message(name: str, ring: str, topic: Topic, decoder: Decoder) -> Recorde
     if form is None or form.directions is None:
         rows, columns = _grid(topic)
         return _by_model(name, ring, topic, SensorModel(rows=rows, columns=columns))
-    rays = form.directions(decoder.decode(topic.channel, 0))
+    rays = form.directions(decoder.first(topic.channel))
     return RecordedSensor(name, ring, topic.frame, rays, lambda values: values, (0.0, np.inf))
 
 
@@ -238,8 +261,8 @@ def depth_stream(
     topic: Topic, sensor: RecordedSensor, topics: list[Topic], decoder: Decoder
 ) -> DepthStream:
     """Join a sensor's depth images with the status of the same readings, by their stamps."""
-    beside = [t for t in topics if t.use is Use.STATUS and parent(t.name) == parent(topic.name)]
-    status = next((t for t in beside if t.grid == topic.grid), None)
+    beside = (t for t in topics if t.use is Use.STATUS and t.grid == topic.grid)
+    status = next((t for t in beside if parent(t.name) == parent(topic.name)), None)
     stamps = decoder.header_stamps(topic.channel)
     index = np.full(len(stamps), -1, dtype=np.int64)
     if status is not None:

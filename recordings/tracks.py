@@ -7,6 +7,11 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation, Slerp
 
 Stamps = NDArray[np.int64]
+FARTHEST = 1e8
+"""Metres, metres per second or radians, beyond which a recorded number is no measurement.
+
+Coordinates from the centre of the Earth stay below; squares of larger ones overflow in the end.
+"""
 
 
 @dataclass(frozen=True)
@@ -47,17 +52,49 @@ def pose_track(
 ) -> PoseTrack | None:
     """Make a track of poses in any order; of equal stamps the last is used.
 
-    Poses that are not finite or have a zero quaternion are left out; None where none is left.
+    Poses that are not finite, farther than `FARTHEST`, or have a zero quaternion are left out; None
+    where none is left.
     """
-    length = np.linalg.norm(rotation, axis=1)
-    good = np.isfinite(translation).all(axis=1) & np.isfinite(length) & (length > 1e-6)
-    stamps, translation = stamps[good], translation[good]
-    rotation = rotation[good] / length[good, None]
-    if len(stamps) == 0:
-        return None
-    _, last = np.unique(stamps[::-1], return_index=True)
-    rows = len(stamps) - 1 - last
-    return PoseTrack(stamps[rows], translation[rows], rotation[rows])
+    tracks = pose_tracks(np.zeros(len(stamps), dtype=np.int64), stamps, translation, rotation)
+    return tracks.get(0)
+
+
+def pose_tracks(
+    of: NDArray[np.int64],
+    stamps: NDArray[np.int64],
+    translation: NDArray[np.float64],
+    rotation: NDArray[np.float64],
+) -> dict[int, PoseTrack]:
+    """Make the tracks of several frames at once, as `pose_track` does of one.
+
+    Args:
+        of: (N,) number of the frame that each pose is of.
+        stamps: (N,) nanoseconds.
+        translation: (N, 3) metres.
+        rotation: (N, 4) quaternions x, y, z, w.
+
+    Returns:
+        {number: track} of the frames with a usable pose.
+    """
+    with np.errstate(over="ignore"):  # an infinite length is none
+        length = np.linalg.norm(rotation, axis=1)
+    near = (np.abs(translation) <= FARTHEST).all(axis=1)
+    good = np.flatnonzero(near & np.isfinite(length) & (length > 1e-6))
+    if len(good) == 0:
+        return {}
+    rows = good[np.lexsort((stamps[good], of[good]))]  # stable: the last of equals is the latest
+    following = np.append(rows[1:], -1)
+    last = (of[rows] != of[following]) | (stamps[rows] != stamps[following])
+    last[-1] = True
+    rows = rows[last]
+    numbers, starts = np.unique(of[rows], return_index=True)
+    stamps, translation = stamps[rows], translation[rows]
+    rotation = rotation[rows] / length[rows, None]
+    ends = [*starts[1:].tolist(), len(rows)]
+    return {
+        number: PoseTrack(stamps[start:end], translation[start:end], rotation[start:end])
+        for number, start, end in zip(numbers.tolist(), starts.tolist(), ends, strict=True)
+    }
 
 
 @dataclass(frozen=True)
@@ -93,8 +130,11 @@ class VectorTrack:
 
 
 def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> VectorTrack | None:
-    """Make a track of vectors in any order; of equal stamps the last is used. None where empty."""
-    good = np.isfinite(values).all(axis=1)
+    """Make a track of vectors in any order; of equal stamps the last is used.
+
+    Vectors that are not finite or larger than `FARTHEST` are left out; None where none is left.
+    """
+    good = (np.abs(values) <= FARTHEST).all(axis=1)
     stamps, values = stamps[good], values[good]
     if len(stamps) == 0:
         return None

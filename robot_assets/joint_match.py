@@ -54,6 +54,12 @@ def match_joints(
     prefix = _chosen(complete or list(by_prefix), own_prefix)
 
     rivals = {p: by_prefix[p] for p in complete if p != prefix}
+    free_names: dict[str, list[str]] = {}
+    # A rival's joint belongs to another robot, even where this one has no such joint.
+    for p, names in by_prefix.items():
+        for joint, name in names.items() if p not in rivals else ():
+            free_names.setdefault(joint, []).append(name)
+    of_rivals = {joint for names in rivals.values() for joint in names}
     taken: dict[str, str] = {}
     ambiguous: list[str] = []
     for joint in joints:
@@ -62,11 +68,10 @@ def match_joints(
             for p in (prefix, own_prefix)
             if p in by_prefix and joint in by_prefix[p]
         ]
-        # A rival's joint belongs to another robot, even where this one has no such joint.
-        free = [n[joint] for p, n in by_prefix.items() if p not in rivals and joint in n]
+        free = free_names.get(joint, [])
         if preferred or len(free) == 1:
             taken[(preferred or free)[0]] = joint
-        elif free or (prefix is None and any(joint in names for names in rivals.values())):
+        elif free or (prefix is None and joint in of_rivals):
             ambiguous.append(joint)
     known = {*taken.values(), *ambiguous}
     return JointMatch(
@@ -82,11 +87,16 @@ def _by_prefix(
     recorded: Iterable[str], cores: dict[str, str], wanted: Collection[str]
 ) -> dict[str, dict[str, str]]:
     """{prefix: {joint: recorded name}} of the wanted joints; the longest core that fits wins."""
+    joint_of = {core: joint for joint, core in reversed(cores.items())}
+    longest = max(map(len, joint_of), default=0)
+    wanted = set(wanted)
     found: dict[str, dict[str, str]] = {}
     for name in recorded:
-        fitting = [joint for joint, core in cores.items() if _ends_with(name, core)]
-        if fitting and (joint := max(fitting, key=lambda joint: len(cores[joint]))) in wanted:
-            found.setdefault(name.removesuffix(cores[joint]), {})[joint] = name
+        # A core may begin where a word of the name does; the first that fits is the longest.
+        starts = (i for i in range(max(len(name) - longest, 0), len(name)) if _begins(name, i))
+        start = next((i for i in starts if name[i:] in joint_of), None)
+        if start is not None and (joint := joint_of[name[start:]]) in wanted:
+            found.setdefault(name[:start], {})[joint] = name
     return found
 
 
@@ -97,7 +107,6 @@ def _chosen(prefixes: list[str], own: str) -> str | None:
     return prefixes[0] if len(prefixes) == 1 else None
 
 
-def _ends_with(recorded: str, core: str) -> bool:
-    """Whether a name is `core`, alone or after a prefix that ends at a word boundary."""
-    head = recorded.removesuffix(core)
-    return recorded == core or (head != recorded and not head[-1].isalnum())
+def _begins(name: str, at: int) -> bool:
+    """Whether a word of a name may begin at a place."""
+    return at == 0 or not name[at - 1].isalnum()

@@ -1,105 +1,145 @@
-"""Meshes of a robot: paths of a URDF's mesh files, and reading them."""
+"""Meshes of a robot's links; what cannot be used is left out and told."""
 
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal
 
 import numpy as np
 import trimesh
 import yourdfpy
+from numpy.typing import NDArray
 
-from robot_assets.errors import RobotError
+from robot_assets.mesh_files import MeshError, MeshPlaces, read_mesh
 
-_EXAMPLE_ROBOT_DATA = "package://example-robot-data/"
+MOST_TRIANGLES = 500_000
+"""Triangles of a robot's visual meshes, and as many of its collision meshes."""
+SHAPES = ("box", "cylinder", "sphere", "mesh")
+"""Shapes of a URDF."""
+_FARTHEST = 1e4
+"""Metres from its link's origin that a shape may reach."""
+_EFFECT = "what it shows is neither drawn nor removed from the clouds"
+
+Kind = Literal["visuals", "collisions"]
 
 
-def link_meshes(urdf: yourdfpy.URDF, kind: str) -> dict[str, trimesh.Trimesh]:
-    """{link: one mesh in the link's frame, metres, coloured per vertex}.
+class RobotMeshes:
+    """Meshes of the links of a robot, read when they are asked for.
 
     Args:
         urdf: a loaded description.
-        kind: "visuals" or "collisions".
-
-    Raises:
-        RobotError: a mesh file that is there cannot be read.
+        places: where its mesh files may lie.
+        unknown: links with shapes that the description lost because they are of no known kind.
     """
-    meshes: dict[str, trimesh.Trimesh] = {}
-    for name, link in urdf.link_map.items():
-        parts = [_part_mesh(part, urdf) for part in getattr(link, kind)]
-        parts = [part for part in parts if part is not None]
-        if parts:
-            meshes[str(name)] = trimesh.util.concatenate(parts)  # type: ignore[assignment]
-    return meshes
+
+    def __init__(
+        self, urdf: yourdfpy.URDF, places: MeshPlaces, unknown: Sequence[str] = ()
+    ) -> None:
+        self._urdf = urdf
+        self._places = places
+        self._left_out = {_shape_of(link): f"it is none of {', '.join(SHAPES)}" for link in unknown}
+        for _, part in self._parts("visuals", "collisions"):
+            mesh = getattr(part.geometry, "mesh", None)
+            if mesh is not None:
+                self._found(mesh.filename)
+
+    def of(self, kind: Kind) -> dict[str, trimesh.Trimesh]:
+        """{link: one mesh in the link's frame, metres, coloured per vertex}.
+
+        Shapes that cannot be used are left out, see `warnings`.
+        """
+        found: dict[str, list[trimesh.Trimesh]] = {}
+        left = MOST_TRIANGLES
+        for link, part in self._parts(kind):
+            name = _name(part, link)
+            try:
+                mesh = self._mesh(part, left)
+            except MeshError as error:
+                self._left_out[name] = str(error)
+            else:
+                left -= len(mesh.faces)
+                found.setdefault(link, []).append(mesh)
+        return {link: trimesh.util.concatenate(parts) for link, parts in found.items()}  # type: ignore[misc]
+
+    @property
+    def warnings(self) -> list[str]:
+        """A sentence for each reason why meshes or shapes are left out."""
+        by_reason: dict[str, list[str]] = {}
+        for name, reason in list(self._left_out.items()):
+            by_reason.setdefault(reason, []).append(name)
+        robot = self._urdf.robot.name
+        return [
+            f"A mesh of {robot} is left out, {names[0]}: {reason}; {_EFFECT}."
+            if len(names) == 1
+            else f"{len(names)} meshes of {robot} are left out, such as {names[0]}: {reason}; "
+            f"{_EFFECT}."
+            for reason, names in by_reason.items()
+        ]
+
+    def _parts(self, *kinds: Kind) -> Iterator[tuple[str, Any]]:
+        for name, link in self._urdf.link_map.items():
+            for kind in kinds:
+                for part in getattr(link, kind):
+                    yield str(name), part
+
+    def _found(self, filename: str) -> None:
+        try:
+            self._places.find(filename)
+        except MeshError as error:
+            self._left_out[filename] = str(error)
+
+    def _mesh(self, part: Any, most: int) -> trimesh.Trimesh:  # noqa: ANN401 (untyped)
+        """Mesh of a part in its link's frame; MeshError where it cannot be used."""
+        geometry = part.geometry
+        if getattr(geometry, "mesh", None) is not None:
+            mesh = read_mesh(self._places.find(geometry.mesh.filename), most)
+            if geometry.mesh.scale is not None:
+                mesh.apply_scale(_numbers(geometry.mesh.scale, "scale", 3, signed=True))
+        else:
+            mesh = _shape(geometry)
+            if len(mesh.faces) > most:
+                raise MeshError(f"the robot has more than {MOST_TRIANGLES} triangles")
+        if part.origin is not None:
+            with np.errstate(all="ignore"):  # judged by its result
+                mesh.apply_transform(part.origin)
+        if not (np.abs(mesh.vertices) <= _FARTHEST).all():
+            raise MeshError(f"it reaches farther than {_FARTHEST:g} m from its link")
+        return mesh
 
 
-def panda_urdf_path() -> Path:
-    """Path of the Panda's URDF in the example-robot-data package."""
-    return _example_robot_data() / "robots" / "panda_description" / "urdf" / "panda.urdf"
-
-
-def resolve_mesh(name: str, folder: Path | None = None) -> str:
-    """Path of a mesh named in a URDF; the name itself where no such file is found."""
-    if name.startswith(_EXAMPLE_ROBOT_DATA):
-        return str(_example_robot_data() / name.removeprefix(_EXAMPLE_ROBOT_DATA))
-    if name.startswith("package://") and folder is not None:
-        # A ROS package keeps its meshes beside its urdf folder.
-        inside = name.removeprefix("package://")
-        below = inside.split("/", 1)[-1]
-        for parent in [folder, *folder.parents]:
-            for candidate in (parent / inside, parent / below):
-                if candidate.is_file():
-                    return str(candidate)
-    if folder is not None and (folder / name.removeprefix("file://")).is_file():
-        return str(folder / name.removeprefix("file://"))
-    return name.removeprefix("file://")
-
-
-def _example_robot_data() -> Path:
-    # The package is a data wheel without a module to import.
-    from importlib.metadata import distribution
-
-    share = distribution("example-robot-data").locate_file("cmeel.prefix/share/example-robot-data")
-    return Path(str(share))
-
-
-def _part_mesh(part: Any, urdf: yourdfpy.URDF) -> trimesh.Trimesh | None:  # noqa: ANN401 (untyped)
-    geometry = part.geometry
+def _shape(geometry: Any) -> trimesh.Trimesh:  # noqa: ANN401
     if geometry.box is not None:
-        mesh = trimesh.creation.box(extents=geometry.box.size)
-    elif geometry.cylinder is not None:
-        mesh = trimesh.creation.cylinder(
-            radius=geometry.cylinder.radius, height=geometry.cylinder.length
-        )
-    elif geometry.sphere is not None:
-        mesh = trimesh.creation.icosphere(radius=geometry.sphere.radius)
-    else:
-        path = Path(urdf._filename_handler(geometry.mesh.filename))
-        if not path.is_file():
-            return None
-        mesh = _read_mesh(path)
-        if geometry.mesh.scale is not None:
-            mesh.apply_scale(geometry.mesh.scale)
-    if part.origin is not None:
-        mesh.apply_transform(part.origin)
-    return mesh
+        return trimesh.creation.box(extents=_numbers(geometry.box.size, "size", 3))
+    if geometry.cylinder is not None:
+        cylinder = geometry.cylinder
+        size = _numbers([cylinder.radius, cylinder.length], "radius and length", 2)
+        return trimesh.creation.cylinder(radius=size[0], height=size[1])
+    if geometry.sphere is not None:
+        size = _numbers([geometry.sphere.radius], "radius", 1)
+        return trimesh.creation.icosphere(radius=size[0])
+    raise MeshError(f"it is none of {', '.join(SHAPES)}")
 
 
-def _read_mesh(path: Path) -> trimesh.Trimesh:
-    try:
-        mesh = _coloured(trimesh.load(path))
-    except Exception as error:  # trimesh passes on errors of each format's reader
-        raise RobotError(f"The mesh {path} cannot be read: {error}.") from error
-    if len(mesh.faces) == 0:
-        raise RobotError(f"The mesh {path} has no triangles.")
-    return mesh
+def _numbers(
+    values: Any,  # noqa: ANN401
+    what: str,
+    count: int,
+    signed: bool = False,
+) -> NDArray[np.float64]:
+    """Sizes of a shape, or a mesh's scale; MeshError where they are none."""
+    given = [] if values is None else [np.nan if v is None else v for v in np.ravel(values)]
+    numbers = np.array(given, dtype=np.float64)
+    if signed and len(numbers) == 1:
+        numbers = np.repeat(numbers, count)
+    large = np.abs(numbers) if signed else numbers
+    if len(numbers) != count or not ((large > 0) & (large <= _FARTHEST)).all():
+        text = " ".join(f"{number:g}" for number in numbers[:4]) or "nothing"
+        raise MeshError(f"its {what} cannot be {text}")
+    return numbers
 
 
-def _coloured(loaded: Any) -> trimesh.Trimesh:  # noqa: ANN401 (trimesh.load gives a mesh or a scene)
-    """Merge a loaded file into one mesh, with materials as vertex colours."""
-    parts: list[trimesh.Trimesh] = []
-    for mesh in [loaded] if isinstance(loaded, trimesh.Trimesh) else loaded.dump():
-        material: Any = getattr(mesh.visual, "material", mesh.visual)
-        colours = np.tile(material.main_color, (len(mesh.vertices), 1))
-        parts.append(
-            trimesh.Trimesh(mesh.vertices, mesh.faces, vertex_colors=colours, process=False)
-        )
-    return trimesh.util.concatenate(parts)  # type: ignore[return-value]
+def _name(part: Any, link: str) -> str:  # noqa: ANN401
+    mesh = getattr(part.geometry, "mesh", None)
+    return str(mesh.filename) if mesh is not None else _shape_of(link)
+
+
+def _shape_of(link: str) -> str:
+    return f"a shape of link {link}"

@@ -1,12 +1,11 @@
 """Robot from a URDF: links, joints, meshes, and forward kinematics."""
 
+import logging
 import re
-import threading
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,10 +15,20 @@ from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
 from robot_assets.joint_match import JointMatch, match_joints
-from robot_assets.meshes import link_meshes, panda_urdf_path, resolve_mesh
+from robot_assets.kinematics import ROTARY, Kinematics
+from robot_assets.mesh_files import MeshPlaces, panda_urdf_path
+from robot_assets.meshes import SHAPES, RobotMeshes
 
 Transform = NDArray[np.float64]
-_ROTARY = ("revolute", "continuous")
+MOST_LINKS = 20_000
+"""Links of a robot; a description with more is refused."""
+_LARGEST = 16 * 2**20
+"""Bytes of a description."""
+_FARTHEST = 1e5
+"""Metres from the base that a link at rest may be."""
+
+# What it says of broken descriptions is said in a sentence of ours.
+logging.getLogger("yourdfpy").addHandler(logging.NullHandler())
 
 
 class Robot:
@@ -29,15 +38,28 @@ class Robot:
         urdf: a loaded description; `load_robot` loads one from a file or a text.
         name: shown on screen.
         text: the unchanged description.
+        places: where its mesh files may lie.
+        unknown: links with shapes of no known kind, which `urdf` lacks.
+
+    Raises:
+        RobotError: its joints are not those of one tree; the text is a reason.
     """
 
-    def __init__(self, urdf: yourdfpy.URDF, name: str, text: str) -> None:
+    def __init__(
+        self,
+        urdf: yourdfpy.URDF,
+        name: str,
+        text: str,
+        places: MeshPlaces,
+        unknown: Sequence[str] = (),
+    ) -> None:
         self._urdf = urdf
         self.text = text
-        self._lock = threading.Lock()  # yourdfpy keeps the configuration inside the URDF object
         self.name = name
-        self.base = str(urdf.base_link)
-        self.links = tuple(str(link) for link in urdf.link_map)
+        self._kinematics = Kinematics(urdf)
+        self._meshes = RobotMeshes(urdf, places, unknown)
+        self.base = self._kinematics.base
+        self.links = self._kinematics.links
         self.joint_names = tuple(str(joint) for joint in urdf.actuated_joint_names)
         self.joint_limits = {
             name: (float(limit.lower), float(limit.upper))
@@ -55,11 +77,13 @@ class Robot:
         whose name without the robot's own prefix is `joint1`. A prefix is this robot's if it has
         all rotary joints; fingers may be missing.
         """
-        rotary = [name for name in self.joint_names if self._urdf.joint_map[name].type in _ROTARY]
+        joints = self._urdf.joint_map
+        rotary = [name for name in self.joint_names if joints[name].type in ROTARY]
+        actuated = set(self.joint_names)
         return match_joints(
             recorded,
             self.joint_names,
-            [name for name, _ in self._joints if name not in self.joint_names],
+            [str(name) for name in joints if name not in actuated],
             self._prefix,
             rotary or self.joint_names,
         )
@@ -78,13 +102,11 @@ class Robot:
         An unknown rotary joint leaves the links behind it unknown. An unknown prismatic joint,
         such as a finger's, does not: the error is at most its short travel.
         """
-        driver = {name: joint.mimic.joint if joint.mimic else name for name, joint in self._joints}
-        unknown = {
-            str(joint.child)
-            for name, joint in self._joints
-            if joint.type in _ROTARY and driver[name] not in joints
-        }
-        return frozenset(link for link in self.links if unknown.isdisjoint(self._chain(link)))
+        return self._kinematics.placed_by(joints)
+
+    def joints_placing(self, link: str) -> frozenset[str]:
+        """Joints whose positions must be known to place a link, as `links_placed_by` has it."""
+        return self._kinematics.needed_by(link)
 
     def outside_limits(self, positions: Mapping[str, float], tolerance: float = 1e-3) -> list[str]:
         """Messages about joints beyond their limits by more than `tolerance` (rad or m)."""
@@ -103,12 +125,9 @@ class Robot:
         Returns:
             {link: T_base_link (4, 4)} of every link.
         """
-        configuration = np.array([positions.get(n, self._rest(n)) for n in self.joint_names])
-        with self._lock:
-            self._urdf.update_cfg(configuration)
-            return {
-                link: np.array(self._urdf.get_transform(link, self.base)) for link in self.links
-            }
+        return self._kinematics.poses(
+            {name: positions.get(name, self._rest(name)) for name in self.joint_names}
+        )
 
     @cached_property
     def parents(self) -> dict[str, str]:
@@ -124,39 +143,22 @@ class Robot:
     def visual_meshes(self) -> dict[str, trimesh.Trimesh]:
         """{link: one mesh in the link's frame, metres, coloured per vertex} of visible links.
 
-        Missing files are left out, see `missing_meshes`; a broken one raises RobotError.
+        What cannot be used is left out, see `mesh_warnings`.
         """
-        return link_meshes(self._urdf, "visuals")
+        return self._meshes.of("visuals")
 
     @cached_property
     def collision_meshes(self) -> dict[str, trimesh.Trimesh]:
         """{link: one mesh in the link's frame, metres} of links with collision geometry.
 
-        Missing files are left out, see `missing_meshes`; a broken one raises RobotError.
+        What cannot be used is left out, see `mesh_warnings`.
         """
-        return link_meshes(self._urdf, "collisions")
-
-    @cached_property
-    def missing_meshes(self) -> tuple[str, ...]:
-        """Mesh files named in the description that do not exist."""
-        return tuple(
-            geometry.mesh.filename
-            for link in self._urdf.link_map.values()
-            for part in [*link.visuals, *link.collisions]
-            if (geometry := part.geometry).mesh is not None
-            and not Path(self._urdf._filename_handler(geometry.mesh.filename)).is_file()
-        )
+        return self._meshes.of("collisions")
 
     @property
-    def _joints(self) -> list[tuple[str, Any]]:
-        return [(str(name), joint) for name, joint in self._urdf.joint_map.items()]
-
-    def _chain(self, link: str) -> list[str]:
-        """A link and its ancestors, down to the base."""
-        chain = [link]
-        while chain[-1] in self.parents:
-            chain.append(self.parents[chain[-1]])
-        return chain
+    def mesh_warnings(self) -> list[str]:
+        """Messages about meshes that are left out; reading the meshes may add some."""
+        return self._meshes.warnings
 
     @cached_property
     def _prefix(self) -> str:
@@ -172,50 +174,54 @@ class Robot:
         return float(np.clip(0.0, low, high))
 
 
-def load_robot(source: str | Path | None = None) -> Robot:
+def load_robot(source: str | Path | None = None, mesh_folders: Sequence[str | Path] = ()) -> Robot:
     """Load a robot.
 
     Args:
         source: path of a URDF file; None is the Franka Emika Panda of the example-robot-data
-            package. A string that starts with "<" is the URDF itself, as in /robot_description.
+            package. A string that starts with "<" is the URDF itself, as in /robot_description: its
+            meshes come from packages and `mesh_folders` only.
+        mesh_folders: further folders with its mesh files, or with packages of them.
 
     Raises:
         RobotError: the file does not exist or is not a URDF.
     """
+    folders = tuple(Path(folder) for folder in mesh_folders)
     if isinstance(source, str) and source.lstrip().startswith("<"):
-        where, text, folder = "The robot description", source, None
-    else:
-        path = panda_urdf_path() if source is None else Path(source)
-        where, folder = str(path), path.parent
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
-        except UnicodeDecodeError as error:
-            raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
-    return _robot(text, where, folder)
+        return _robot(source, "The robot description", MeshPlaces(folders))
+    path = panda_urdf_path() if source is None else Path(source)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
+    return _robot(text, str(path), MeshPlaces(folders, path.parent))
 
 
 @lru_cache(maxsize=16)
-def _robot(text: str, where: str, folder: Path | None) -> Robot:
+def _robot(text: str, where: str, places: MeshPlaces) -> Robot:
     # Recordings of the same robot share it, so that its meshes are loaded once.
-    _check_is_urdf(where, text)
+    root = _root(where, text)
+    unknown = _remove_unknown_shapes(root)
     try:
-        urdf = yourdfpy.URDF.load(
-            BytesIO(text.encode("utf-8")),
-            filename_handler=lambda name: resolve_mesh(name, folder),
-            load_meshes=False,
-            build_scene_graph=True,
-        )
-        robot = Robot(urdf, str(urdf.robot.name), text)
-        robot.link_poses({})  # fails here where joints form a loop
+        known = ElementTree.tostring(root) if unknown else text.encode("utf-8")
+        urdf = yourdfpy.URDF.load(BytesIO(known), load_meshes=False, build_scene_graph=False)
+        robot = Robot(urdf, str(urdf.robot.name), text, places, unknown)
+        with np.errstate(all="ignore"):
+            at_rest = np.stack(list(robot.link_poses({}).values()))
     except Exception as error:  # yourdfpy has no error type of its own
         raise RobotError(f"{where} is not a URDF that can be used: {error}.") from error
+    if not (np.abs(at_rest) <= _FARTHEST).all():
+        raise RobotError(f"{where} cannot be used: it puts links farther than {_FARTHEST:g} m.")
     return robot
 
 
-def _check_is_urdf(where: str, text: str) -> None:
+def _root(where: str, text: str) -> ElementTree.Element:
+    """Root of a description; RobotError where it is none."""
     # yourdfpy repairs broken XML silently and fails on the result.
+    if len(text) > _LARGEST:
+        raise RobotError(f"{where} has {len(text)} characters, more than {_LARGEST}.")
     try:
         root = ElementTree.fromstring(text.strip().encode("utf-8"))
     except ElementTree.ParseError as error:
@@ -224,5 +230,20 @@ def _check_is_urdf(where: str, text: str) -> None:
         raise RobotError(f"{where} is not a URDF: it must be a <robot> with a name.")
     if root.find("link") is None:
         raise RobotError(f"{where} has no links.")
+    if (count := len(root.findall("link"))) > MOST_LINKS:
+        raise RobotError(f"{where} has {count} links, more than {MOST_LINKS}.")
     if any(not mesh.get("filename") for mesh in root.iter("mesh")):
         raise RobotError(f"{where} has a <mesh> without a filename.")
+    return root
+
+
+def _remove_unknown_shapes(root: ElementTree.Element) -> list[str]:
+    """Remove shapes that a URDF cannot have, which yourdfpy fails on; returns their links."""
+    links: list[str] = []
+    for link in root.iter("link"):
+        for part in [*link.findall("visual"), *link.findall("collision")]:
+            shapes = [shape for geometry in part.findall("geometry") for shape in geometry]
+            if len(shapes) != 1 or shapes[0].tag not in SHAPES:
+                link.remove(part)
+                links.append(link.get("name", ""))
+    return links

@@ -198,15 +198,18 @@ def _plan(options: argparse.Namespace) -> Plan:
         opening_from(options)  # RigError or RobotError where a file cannot be used
         # Workers of a cluster run in folders of their own.
         rig, urdf = (path and path.absolute() for path in (options.rig, options.urdf))
+        meshes = tuple(str(folder.absolute()) for folder in options.meshes)
         return replace(
             plan,
             recordings=tuple(
-                Recorded(path.absolute(), options.fixed_frame, options.truth_frame, rig, urdf)
+                Recorded(
+                    path.absolute(), options.fixed_frame, options.truth_frame, rig, urdf, meshes
+                )
                 for path in recording_paths(options.recordings)
             ),
         )
-    for name in ("fixed_frame", "truth_frame", "urdf"):
-        if getattr(options, name) is not None:
+    for name in ("fixed_frame", "truth_frame", "urdf", "meshes"):
+        if getattr(options, name):
             raise InputError(
                 f"--{name.replace('_', '-')} says how recordings are opened, and there are none "
                 "without --recordings."

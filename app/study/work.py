@@ -65,6 +65,7 @@ class Recorded:
     truth_frame: str | None = None
     rig: Path | None = None
     urdf: Path | None = None
+    mesh_folders: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -180,7 +181,8 @@ def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, f
             source.fixed_frame,
             source.truth_frame,
             load_rig(source.rig) if source.rig else None,
-            load_robot(source.urdf) if source.urdf else None,
+            load_robot(source.urdf, source.mesh_folders) if source.urdf else None,
+            source.mesh_folders,
         ) as recording:
             yield recording, thread_time() - begin
         return

@@ -8,6 +8,7 @@ from mcap.writer import Writer
 
 from recordings import RecordingError
 from recordings.decoding import Decoder, stamp_of
+from recordings.errors import MisfitError
 from recordings.mcap_file import McapFile
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
 from tests.recordings.foreign import ForeignFile, header, image, twist
@@ -92,25 +93,50 @@ def test_either_order_of_bytes_is_read(tmp_path: Path):
     file.close()
 
 
-def test_an_index_is_believed_where_it_has_all_messages(tmp_path: Path):
-    payloads = [cdr(1, 0, "little"), cdr(2, 0, "little")]
-    whole = headers(tmp_path / "whole.mcap", payloads, {"/only": [41, 42]})
-    short = headers(tmp_path / "short.mcap", payloads, {"/only": [41]})
-    assert Decoder(whole).header_stamps(whole.channels[0]).tolist() == [41, 42]
-    assert Decoder(short).header_stamps(short.channels[0]).tolist() == [10**9, 2 * 10**9]
-    whole.close()
-    short.close()
+def test_an_index_is_believed_where_some_of_its_stamps_are_those_of_the_headers(tmp_path: Path):
+    payloads = [cdr(second, 0, "little") for second in range(5)]
+    true = [second * 10**9 for second in range(5)]
+    believed = [true[0], 77, true[2], true[3], true[4]]  # the second one is not looked at
+    for name, index, found in (
+        ("some", believed, believed),
+        ("short", true[:-1], true),
+        ("constant", [5] * 5, true),
+        ("backwards", true[::-1], true),
+    ):
+        file = headers(tmp_path / f"{name}.mcap", payloads, {"/only": index})
+        assert Decoder(file).header_stamps(file.channels[0]).tolist() == found, name
+        file.close()
 
 
-def test_a_message_that_is_too_short_is_said(tmp_path: Path):
-    file = headers(tmp_path / "x.mcap", [cdr(1, 0, "little"), b"\x00\x01\x00\x00\x01"])
+SHORT = b"\x00\x01\x00\x00\x01"
+
+
+def test_messages_that_are_too_short_for_a_header_are_left_out_and_counted(tmp_path: Path):
+    payloads = [SHORT, cdr(1, 0, "little"), SHORT, cdr(2, 0, "little")]
+    file = headers(tmp_path / "x.mcap", payloads)
     decoder, channel = Decoder(file), file.channels[0]
-    with pytest.raises(RecordingError, match=r"a message of /only is too short"):
-        decoder.header_stamps(channel)
-    with pytest.raises(RecordingError, match=r"message 1 of /only: it does not fit the type"):
-        decoder.decode(channel, 1)
-    assert stamp_of(decoder.decode(channel, 0)) == 10**9
+    assert decoder.header_stamps(channel).tolist() == [10**9, 2 * 10**9]
+    assert [stamp_of(decoder.decode(channel, i)) for i in range(2)] == [10**9, 2 * 10**9]
+    assert decoder.left_out.sentences() == [
+        "2 messages of /only are left out, first 0: it is too short for a header."
+    ]
     file.close()
+
+
+def test_messages_that_do_not_fit_their_type_are_left_out_and_counted(tmp_path: Path):
+    file = headers(tmp_path / "x.mcap", [SHORT, cdr(1, 0, "little"), SHORT])
+    decoder, channel = Decoder(file), file.channels[0]
+    assert stamp_of(decoder.first(channel)) == 10**9
+    for _ in range(2):  # what is read twice is counted once
+        assert [stamp_of(message) for message in decoder.messages(channel)] == [10**9]
+    assert decoder.readable(channel, 2) is None
+    (sentence,) = decoder.left_out.sentences()
+    assert sentence.startswith("2 messages of /only are left out, first 0: it does not fit the ty")
+    with pytest.raises(MisfitError, match="it does not fit the type test_msgs/msg/Only"):
+        decoder.decode(channel, 0)
+    file.close()
+    with pytest.raises(RecordingError, match=r"is closed\.$"):
+        decoder.readable(channel, 1)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ OLD = Provenance(
 
 def file(record: dict[str, str] | None) -> Any:
     metadata = {} if record is None else {PROVENANCE_RECORD: record}
-    return SimpleNamespace(path=Path("x.mcap"), metadata=metadata)
+    return SimpleNamespace(path=Path("x.mcap"), metadata=metadata.get)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from robot_assets import load_rig, rig_text
 
 
 def file(content: bytes | None) -> Any:
-    return SimpleNamespace(attachments={} if content is None else {RIG_ATTACHMENT: content})
+    return SimpleNamespace(attachment={}.get if content is None else {RIG_ATTACHMENT: content}.get)
 
 
 def test_a_rig_comes_back_from_its_attachment():

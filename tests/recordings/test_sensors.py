@@ -77,7 +77,7 @@ def test_only_valid_status_counts_whatever_the_distance_says():
 def test_a_status_of_another_size_is_refused():
     image = picture(np.full((8, 8), 1000, "<u2"), "16UC1")
     status = picture(np.full((4, 4), 5, np.uint8), "8UC1", height=4, width=4, step=4)
-    with pytest.raises(RecordingError, match="A status image of eye is 4 x 4, and not 8 x 8"):
+    with pytest.raises(RecordingError, match="its status image is 4 x 4, and not 8 x 8"):
         readings(image, status, SENSOR)
 
 

@@ -194,7 +194,7 @@ def test_a_continuous_joint_and_one_without_bounds_have_no_limits():
 
 
 def test_the_panda_has_its_meshes_in_its_own_colours(panda):
-    assert panda.missing_meshes == ()
+    assert panda.mesh_warnings == []
     assert set(panda.collision_meshes) == set(panda.visual_meshes)
     assert "panda_link0" in panda.visual_meshes
     colours = np.asarray(panda.visual_meshes["panda_link0"].visual.vertex_colors)

@@ -1,10 +1,15 @@
 """Meshes and descriptions of robots, whole and broken."""
 
+import warnings
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
 
 from robot_assets import RobotError, load_robot
+from robot_assets.mesh_files import MeshError, MeshPlaces
+from robot_assets.meshes import MOST_TRIANGLES
 from tests.robot_assets.urdf import LINK, box_link, chain, joint, urdf
 
 
@@ -37,7 +42,7 @@ def test_a_mesh_beside_the_description_is_found(tmp_path, monkeypatch, filename)
     path = tmp_path / "robot.urdf"
     path.write_text(with_mesh(filename.format(folder=tmp_path), "0.1 0.2 0.3"))
     robot = load_robot(path)
-    assert robot.missing_meshes == ()
+    assert robot.mesh_warnings == []
     assert robot.collision_meshes["body"].extents == pytest.approx([0.1, 0.2, 0.3])
 
 
@@ -54,14 +59,17 @@ def test_a_mesh_in_a_package_folder_above_is_found(tmp_path):
     trimesh.creation.box((1, 1, 1)).export(tmp_path / "bot" / "meshes" / "box.stl")
     path = tmp_path / "bot" / "urdf" / "robot.urdf"
     path.write_text(with_mesh("package://bot/meshes/box.stl"))
-    assert load_robot(path).missing_meshes == ()
+    assert load_robot(path).mesh_warnings == []
 
 
 def test_missing_meshes_are_named_and_the_rest_works(tmp_path):
     path = tmp_path / "robot.urdf"
     path.write_text(with_mesh("package://bot/gone.dae"))
     robot = load_robot(path)
-    assert robot.missing_meshes == ("package://bot/gone.dae",)
+    assert robot.mesh_warnings == [
+        "A mesh of tester is left out, package://bot/gone.dae: it is not there; --meshes names the "
+        "folder of its package; what it shows is neither drawn nor removed from the clouds."
+    ]
     assert robot.collision_meshes == {}
     assert robot.link_poses({})["body"] == pytest.approx(np.eye(4))
 
@@ -70,15 +78,116 @@ def test_missing_meshes_are_named_and_the_rest_works(tmp_path):
     ("name", "content"),
     [("bad.stl", b"solid nonsense"), ("bad.dae", b"<x/>"), ("bad.obj", b"v 0 0 0\n")],
 )
-def test_a_broken_mesh_is_one_sentence_that_names_it(tmp_path, name, content):
+def test_a_broken_mesh_is_left_out_and_told(tmp_path, name, content):
     (tmp_path / name).write_bytes(content)
     path = tmp_path / "robot.urdf"
     path.write_text(with_mesh(name))
     robot = load_robot(path)
-    with pytest.raises(RobotError) as caught:
-        _ = robot.collision_meshes
-    assert str(caught.value).startswith(f"The mesh {tmp_path / name} ")
-    assert "\n" not in str(caught.value)
+    assert robot.mesh_warnings == []
+    assert robot.collision_meshes == {}
+    (sentence,) = robot.mesh_warnings
+    assert sentence.startswith(f"A mesh of tester is left out, {name}: it ")
+    assert "\n" not in sentence
+
+
+def cube(folder: Path, name: str = "box.stl") -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    trimesh.creation.box((1, 1, 1)).export(folder / name)
+    return folder / name
+
+
+def test_a_recorded_description_reads_named_folders_and_packages_only(tmp_path, monkeypatch):
+    cube(tmp_path / "ros/share/bot/meshes")
+    cube(tmp_path / "mine/bot/meshes")
+    outside = cube(tmp_path / "private")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/gone:{tmp_path / 'ros'}")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", "")
+
+    def found(name: str, *folders: Path) -> bool:
+        try:
+            return MeshPlaces(folders).find(name).is_file()
+        except MeshError:
+            return False
+
+    assert found("package://bot/meshes/box.stl")
+    assert found(f"file://{tmp_path}/ros/share/bot/meshes/box.stl")
+    assert not found("package://bot/../../../private/box.stl")
+    assert not found("package://../../private/box.stl")
+    for name in (f"file://{outside}", str(outside), "private/box.stl", "box.stl"):
+        assert not found(name)
+    assert not found("box.stl", tmp_path / "mine")
+    assert not found("../private/box.stl", tmp_path / "mine")
+    assert found("box.stl", outside.parent)
+    assert found(str(outside), outside.parent)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "")
+    assert not found("package://bot/meshes/box.stl")
+    assert found("package://bot/meshes/box.stl", tmp_path / "mine")
+    assert found("package://bot/meshes/box.stl", tmp_path / "mine" / "bot")
+    (tmp_path / "mine" / "link.stl").symlink_to(outside)
+    assert not found("link.stl", tmp_path / "mine")
+
+
+def test_a_recorded_description_with_a_path_of_this_machine_shows_nothing_of_it(tmp_path):
+    inside = load_robot(with_mesh(f"file://{cube(tmp_path)}"))
+    assert inside.collision_meshes == {}
+    assert "it lies outside its package and the folders" in inside.mesh_warnings[0]
+
+
+@pytest.mark.parametrize(
+    "name", ["x" * 5000 + ".stl", "http://127.0.0.1:9/a.stl", "package://", "meshes.zip", "/"]
+)
+def test_names_that_are_no_files_are_left_out_and_told(tmp_path, name):
+    (tmp_path / "meshes.zip").write_bytes(b"PK")
+    robot = load_robot(with_mesh(name), [tmp_path])
+    assert robot.collision_meshes == {}
+    assert len(robot.mesh_warnings) == 1
+
+
+def shape(geometry: str) -> str:
+    return urdf(f'<link name="body"><collision><geometry>{geometry}</geometry></collision></link>')
+
+
+@pytest.mark.parametrize(
+    ("geometry", "reason"),
+    [
+        ('<box size="1"/>', "its size cannot be 1"),
+        ('<box size="inf 1 1"/>', "its size cannot be inf 1 1"),
+        ('<cylinder radius="nan" length="1"/>', "its radius and length cannot be nan 1"),
+        ('<cylinder radius="1" length="-1"/>', "its radius and length cannot be 1 -1"),
+        ('<sphere radius="1e308"/>', "its radius cannot be 1e+308"),
+        ('<capsule radius="1" length="1"/>', "it is none of box, cylinder, sphere, mesh"),
+        ("", "it is none of box, cylinder, sphere, mesh"),
+    ],
+)
+def test_a_shape_that_cannot_be_is_left_out_and_told(geometry, reason):
+    with warnings.catch_warnings(action="error"):
+        robot = load_robot(shape(geometry))
+        assert robot.collision_meshes == {}
+    (sentence,) = robot.mesh_warnings
+    assert sentence.startswith(f"A mesh of tester is left out, a shape of link body: {reason}")
+
+
+def test_triangles_are_bounded():
+    sphere = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
+    robot = load_robot(urdf(f'<link name="body">{sphere}</link>', name="one"))
+    each = len(robot.collision_meshes["body"].faces)
+    count = MOST_TRIANGLES // each + 5
+    robot = load_robot(urdf(f'<link name="body">{sphere * count}</link>', name="many"))
+    assert len(robot.collision_meshes["body"].faces) == (count - 5) * each
+    assert "the robot has more than 500000 triangles" in robot.mesh_warnings[0]
+
+
+def test_a_mesh_of_too_many_triangles_is_left_out(tmp_path, monkeypatch):
+    cube(tmp_path)
+    monkeypatch.setattr("robot_assets.meshes.MOST_TRIANGLES", 11)
+    robot = load_robot(with_mesh("box.stl"), [tmp_path])
+    assert robot.collision_meshes == {}
+    assert "it has 12 triangles, and 11 are left for it" in robot.mesh_warnings[0]
+    cube(tmp_path, "large.stl")
+    monkeypatch.setattr("robot_assets.mesh_files.LARGEST_FILE", 600)
+    robot = load_robot(with_mesh("large.stl"), [tmp_path])
+    assert robot.collision_meshes == {}
+    assert "it has 684 bytes, more than 600" in robot.mesh_warnings[0]
 
 
 LOOP = urdf(

@@ -17,14 +17,17 @@ class Opening:
     truth_frame: str | None = None
     rig: Rig | None = None
     robot: Robot | None = None
+    mesh_folders: tuple[Path, ...] = ()
 
     def open(self, path: Path) -> Recording:
         """Open a recording; RecordingError where that is not possible."""
-        return open_recording(path, self.fixed_frame, self.truth_frame, self.rig, self.robot)
+        return open_recording(
+            path, self.fixed_frame, self.truth_frame, self.rig, self.robot, self.mesh_folders
+        )
 
 
 def add_recording_flags(parser: argparse.ArgumentParser) -> None:
-    """Add --fixed-frame, --truth-frame, --rig and --urdf."""
+    """Add --fixed-frame, --truth-frame, --rig, --urdf and --meshes."""
     group = parser.add_argument_group("how recordings are opened")
     group.add_argument(
         "--fixed-frame",
@@ -52,15 +55,35 @@ def add_recording_flags(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="robot (default: the recording's own description, or a Panda where the joints fit)",
     )
+    group.add_argument(
+        "--meshes",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FOLDER",
+        help=(
+            "folder with the meshes of the robot, or with packages of them; may be given several "
+            "times (default: packages of ROS and of example-robot-data, by their names alone)"
+        ),
+    )
 
 
 def opening_from(options: argparse.Namespace) -> Opening:
-    """Collect the flags; RigError or RobotError where a file cannot be used."""
+    """Collect the flags.
+
+    Raises:
+        RigError, RobotError: a file cannot be used.
+        InputError: a folder is not there.
+    """
+    for folder in options.meshes:
+        if not folder.is_dir():
+            raise InputError(f"There is no folder {folder} (--meshes).")
     return Opening(
         fixed_frame=options.fixed_frame,
         truth_frame=options.truth_frame,
         rig=load_rig(options.rig) if options.rig else None,
-        robot=load_robot(options.urdf) if options.urdf else None,
+        robot=load_robot(options.urdf, options.meshes) if options.urdf else None,
+        mesh_folders=tuple(options.meshes),
     )
 
 

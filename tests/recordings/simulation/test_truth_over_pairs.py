@@ -1,3 +1,4 @@
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -124,7 +125,7 @@ def test_without_poses_a_turn_is_found_from_the_velocities(turning: Path):
         k = len(recording) // 2
         cloud = recording.cloud(k - 8)
         by_poses = own.over(k - 8, k, cloud)
-        own._poses = {}
+        own._poses = lru_cache(lambda number: None)
         by_velocities = own.over(k - 8, k, cloud)
         assert by_poses is not None
         assert by_velocities is not None
