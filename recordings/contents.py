@@ -123,7 +123,7 @@ def natural_key(text: str) -> list[tuple[int, int, str]]:
 
 def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     kind = channel.schema_name.replace("/msg/", "/")
-    if kind not in _BY_TYPE and range_format(kind) is None:
+    if kind not in (_TRANSFORMS, *_BY_TYPE) and range_format(kind) is None:
         return Topic(channel, Use.NOTHING, f"{channel.schema_name or 'its type'} is not needed")
     if len(channel.topic) > _LONGEST_NAME:
         return Topic(channel, Use.NOTHING, "its name is too long")
@@ -134,6 +134,10 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
         return Topic(channel, Use.NOTHING, "it has no messages")
     if misfit := decoder.misfit(channel):
         return Topic(channel, Use.NOTHING, f"it does not fit its type: {misfit}", damaged=True)
+    if kind == _TRANSFORMS:
+        # Decided by the name alone: a message may hold very many.
+        static = channel.topic.endswith("tf_static")
+        return Topic(channel, Use.STATIC_TRANSFORMS if static else Use.TRANSFORMS)
     first = decoder.first(channel)
     if first is None:
         return Topic(channel, Use.NOTHING, "its messages do not fit its type", damaged=True)
@@ -170,10 +174,6 @@ def _camera_info(topic: str, info: Any) -> Use | str:  # noqa: ANN401
     return Use.CAMERA_INFO
 
 
-def _transforms(topic: str, message: Any) -> Use | str:  # noqa: ANN401
-    return Use.STATIC_TRANSFORMS if topic.endswith("tf_static") else Use.TRANSFORMS
-
-
 def _text(topic: str, message: Any) -> Use | str:  # noqa: ANN401
     is_urdf = "<robot" in message.data[:4096]
     return Use.ROBOT if is_urdf else "it is a text, and not a robot description"
@@ -197,12 +197,12 @@ def _points(topic: str, cloud: Any) -> Use | str:  # noqa: ANN401
     return Use.POINTS
 
 
+_TRANSFORMS = "tf2_msgs/TFMessage"
 _BY_TYPE = {
     "sensor_msgs/Image": _image,
     "sensor_msgs/CameraInfo": _camera_info,
     "sensor_msgs/JointState": lambda topic, message: Use.JOINTS,
     "sensor_msgs/PointCloud2": _points,
-    "tf2_msgs/TFMessage": _transforms,
     "std_msgs/String": _text,
     "geometry_msgs/TwistStamped": lambda topic, message: Use.VELOCITY,
     "geometry_msgs/PoseStamped": _pose,

@@ -1,5 +1,6 @@
 """Interpolation of sampled poses and vectors at other times."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -95,6 +96,15 @@ def pose_tracks(
         number: PoseTrack(stamps[start:end], translation[start:end], rotation[start:end])
         for number, start, end in zip(numbers.tolist(), starts.tolist(), ends, strict=True)
     }
+
+
+def last_poses(tracks: Sequence[PoseTrack]) -> NDArray[np.float64]:
+    """Last pose (N, 4, 4) of each of several tracks."""
+    poses = np.tile(np.eye(4), (len(tracks), 1, 1))
+    if tracks:
+        poses[:, :3, 3] = [track.translation[-1] for track in tracks]
+        poses[:, :3, :3] = Rotation.from_quat([t.rotation[-1] for t in tracks]).as_matrix()
+    return poses
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder, stamp_of
 from recordings.errors import few
-from recordings.tracks import PoseTrack, Stamps, pose_tracks
+from recordings.tracks import PoseTrack, Stamps, last_poses, pose_tracks
 
 Transform = NDArray[np.float64]
 _STILL = 1e-3  # metres, and rad of small angles
@@ -245,20 +245,18 @@ class _Poses(Mapping[str, Transform]):
     def __init__(
         self, fixed: Mapping[str, PoseTrack], moving: Mapping[str, PoseTrack], stamps: Stamps
     ) -> None:
-        self._fixed, self._moving, self._stamps = fixed, moving, stamps
-        self._found: dict[str, Transform] = {}
+        self._moving, self._stamps = moving, stamps
+        self._known = dict(zip(fixed, last_poses(list(fixed.values()))[:, None], strict=True))
+        for frame in moving:
+            self._known.pop(frame, None)
 
     def __getitem__(self, frame: str) -> Transform:
-        if frame not in self._found:
-            if frame in self._moving:
-                self._found[frame] = self._moving[frame].at(self._stamps)
-            else:
-                track = self._fixed[frame]
-                self._found[frame] = track.at(track.stamps[-1:])
-        return self._found[frame]
+        if frame not in self._known:
+            self._known[frame] = self._moving[frame].at(self._stamps)
+        return self._known[frame]
 
     def __iter__(self) -> Iterator[str]:
-        return iter({**self._fixed, **self._moving})
+        return iter({**self._known, **self._moving})
 
     def __len__(self) -> int:
-        return len({**self._fixed, **self._moving})
+        return len({**self._known, **self._moving})

@@ -10,10 +10,14 @@ from numpy.typing import NDArray
 
 from robot_assets.mesh_files import MeshError, MeshPlaces, read_mesh
 
-MOST_TRIANGLES = 500_000
+MOST_TRIANGLES = 400_000
 """Triangles of a robot's visual meshes, and as many of its collision meshes."""
 SHAPES = ("box", "cylinder", "sphere", "mesh")
 """Shapes of a URDF."""
+MOST_SHAPES = 2000
+"""Meshes and shapes of a robot that are visible, and as many for collisions."""
+_SPHERE = 1280
+"""Triangles of a sphere, the simple shape with the most."""
 _FARTHEST = 1e4
 """Metres from its link's origin that a shape may reach."""
 _EFFECT = "what it shows is neither drawn nor removed from the clouds"
@@ -48,9 +52,11 @@ class RobotMeshes:
         """
         found: dict[str, list[trimesh.Trimesh]] = {}
         left = MOST_TRIANGLES
-        for link, part in self._parts(kind):
+        for number, (link, part) in enumerate(self._parts(kind)):
             name = _name(part, link)
             try:
+                if number >= MOST_SHAPES:
+                    raise MeshError(f"the robot has more than {MOST_SHAPES} shapes")
                 mesh = self._mesh(part, left)
             except MeshError as error:
                 self._left_out[name] = str(error)
@@ -94,9 +100,9 @@ class RobotMeshes:
             if geometry.mesh.scale is not None:
                 mesh.apply_scale(_numbers(geometry.mesh.scale, "scale", 3, signed=True))
         else:
-            mesh = _shape(geometry)
-            if len(mesh.faces) > most:
+            if most < _SPHERE:
                 raise MeshError(f"the robot has more than {MOST_TRIANGLES} triangles")
+            mesh = _shape(geometry)
         if part.origin is not None:
             with np.errstate(all="ignore"):  # judged by its result
                 mesh.apply_transform(part.origin)

@@ -174,7 +174,15 @@ def test_triangles_are_bounded():
     count = MOST_TRIANGLES // each + 5
     robot = load_robot(urdf(f'<link name="body">{sphere * count}</link>', name="many"))
     assert len(robot.collision_meshes["body"].faces) == (count - 5) * each
-    assert "the robot has more than 500000 triangles" in robot.mesh_warnings[0]
+    assert "the robot has more than 400000 triangles" in robot.mesh_warnings[0]
+
+
+def test_shapes_are_bounded(monkeypatch):
+    monkeypatch.setattr("robot_assets.meshes.MOST_SHAPES", 2)
+    box = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    robot = load_robot(urdf(f'<link name="body">{box * 3}</link>', name="boxes"))
+    assert len(robot.collision_meshes["body"].faces) == 2 * 12
+    assert "the robot has more than 2 shapes" in robot.mesh_warnings[0]
 
 
 def test_a_mesh_of_too_many_triangles_is_left_out(tmp_path, monkeypatch):
