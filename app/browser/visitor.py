@@ -144,6 +144,8 @@ def _check_pointer(message: ScenePointerMessage) -> None:
     for vector in (message.ray_origin, message.ray_direction):
         assert vector is not None
         _check_vector(vector, 3)
+    assert message.ray_direction is not None
+    _check(max(map(abs, message.ray_direction)) > 1e-6, "no direction")
 
 
 def _check_vector(vector: Sequence[float], size: int) -> None:

@@ -88,6 +88,7 @@ def test_what_a_page_sends_is_handled(visitor, caplog, message):
         replace(CAMERA, image_width=10**9),
         replace(CLICK, ray_origin=None),
         replace(CLICK, ray_direction=(NAN, 0.0, 0.0)),
+        replace(CLICK, ray_direction=(0.0, 1e-300, 0.0)),
         replace(CLICK, event_type="rect-select"),
         updates(NAN),
         updates(INF),
