@@ -11,7 +11,7 @@ import time
 from asyncio import sleep
 from collections.abc import AsyncGenerator, Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 import viser
 import viser.infra
@@ -135,8 +135,13 @@ def end_upload(client: viser.ClientHandle, message: FileTransferStartUpload) -> 
 
 
 class _Connection(ServerConnection):
-    """Connection that is read at a bounded pace, and gives text messages as bytes."""
+    """Connection that is read at a bounded pace, and gives text messages as bytes.
 
+    Attributes:
+        crowd: all connections of a server that have to wait now.
+    """
+
+    crowd: ClassVar[set[ServerConnection]]
     _pace: Pace | None = None
 
     async def recv(self, decode: bool | None = None) -> Any:  # noqa: ANN401 (as its base)
@@ -144,9 +149,13 @@ class _Connection(ServerConnection):
         del decode  # a text message, of which viser has none, would end the connection
         message = await super().recv(decode=False)
         self._pace = self._pace or Pace(time.monotonic())
-        wait = self._pace.wait(len(message), time.monotonic())
+        wait = self._pace.wait(len(message), time.monotonic(), len(self.crowd))
         if wait and self.state is State.OPEN:  # the rest of a client that goes is soon done with
-            await sleep(wait)
+            self.crowd.add(self)
+            try:
+                await sleep(wait)
+            finally:
+                self.crowd.discard(self)
         return message
 
 
@@ -194,12 +203,15 @@ def _guarded_serving(serve: Callable[..., Any], guards: Guards) -> Callable[...,
             for name, value in guards.headers.items():
                 response.headers[name] = value
 
+        class Connection(_Connection):
+            crowd: ClassVar[set[ServerConnection]] = set()
+
         return serve(
             handle,
             *arguments,
             process_request=answer,
             process_response=complete,
-            create_connection=_Connection,
+            create_connection=Connection,
             max_queue=_WAITING,
             **options,
         )
