@@ -1,6 +1,7 @@
 """Recordings that the app lists, opened once and shared by sessions."""
 
 import itertools
+import os
 import threading
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -111,12 +112,19 @@ class Library:
 
 
 def _labels(files: Sequence[Path]) -> list[str]:
-    """File stems where unique, else folder and name, else the whole path."""
-    labels = [path.stem for path in files]
+    r"""File stems where unique, else folder and name, else the whole path.
+
+    Bytes of names that are no text are escapes, such as \xff: a page cannot send them back.
+    """
+    labels = [_readable(path.stem) for path in files]
     for longer in (lambda path: f"{path.parent.name}/{path.name}", str):
         count = Counter(labels)
         labels = [
-            longer(path) if count[label] > 1 else label
+            _readable(longer(path)) if count[label] > 1 else label
             for path, label in zip(files, labels, strict=True)
         ]
     return labels
+
+
+def _readable(name: str) -> str:
+    return os.fsencode(name).decode("utf-8", "backslashreplace")

@@ -1,4 +1,4 @@
-"""viser server that refuses requests of foreign web pages and prints nothing."""
+"""viser server that bears foreign web pages and hostile clients, and prints nothing."""
 
 import contextlib
 import io
@@ -6,33 +6,59 @@ import ipaddress
 import logging
 import socket
 import threading
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from http import HTTPStatus
 from typing import Any
 from urllib.parse import urlsplit
 
 import viser
 from websockets.http11 import Request
 
-from app.browser.internals import CONNECTION_LOGGER, guarding_requests
+from app.browser.connections import (
+    CLOSED_CONNECTION,
+    CONNECTION_LOGGER,
+    ODD_MESSAGE,
+    Guards,
+    guarding,
+)
+from app.browser.rubbish import RubbishLog
+from app.browser.visitor import Visitor
 
+_LONGEST_PATH = 1000  # characters, without the query; the longest of viser's page has fewer than 20
 _starting = threading.Lock()
 
 
 class GuardedServer(viser.ViserServer):
-    """Server that rejects requests of pages of other origins.
+    """Server that rejects requests of pages of other origins, and may not be framed by them.
 
-    Requests without an origin, such as those of programs, are answered.
+    Requests without an origin, such as those of programs, are answered. What a client sends can
+    neither print tracebacks, keep others waiting nor fill the memory.
 
     Args:
         host: address to listen on.
         port: port to listen on, 0 for any free one.
         label: title of the panel.
+        embedders: origins whose pages may show this server's in a frame.
     """
 
-    def __init__(self, host: str, port: int, label: str | None = None) -> None:
+    def __init__(
+        self, host: str, port: int, label: str | None = None, embedders: Sequence[str] = ()
+    ) -> None:
         logging.getLogger(CONNECTION_LOGGER).setLevel(logging.CRITICAL)
-        guard = guarding_requests(lambda request: _refusal(request, host))
-        with _starting, _quiet(), guard:
+        for message in (CLOSED_CONNECTION, ODD_MESSAGE):
+            warnings.filterwarnings("ignore", message=message)
+        self._rubbish = RubbishLog()
+        guards = Guards(
+            refused=lambda request: _refusal(request, host),
+            headers=framing_headers(embedders),
+            attend=self._attend,
+        )
+        with _starting, _quiet(), guarding(guards):
             super().__init__(host=host, port=port, label=label, verbose=False)
+
+    def _attend(self, number: int, end: Callable[[], None]) -> Visitor:
+        return Visitor(lambda: self.get_clients().get(number), end, self._rubbish)
 
     @property
     def camera(self) -> viser.InitialCameraConfig:
@@ -43,9 +69,21 @@ class GuardedServer(viser.ViserServer):
         """Close all connections and free the port."""
         with _starting, _quiet():
             super().stop()
+        self._rubbish.close()
 
     def request_share_url(self, verbose: bool = True) -> None:
         """Do nothing: any page could call it, and it would make this port public."""
+
+
+def framing_headers(embedders: Sequence[str]) -> Mapping[str, str]:
+    """HTTP headers by which browsers show a page in frames of these origins alone."""
+    if embedders:
+        # The older X-Frame-Options knows no list; browsers that know both follow the newer one.
+        return {"Content-Security-Policy": f"frame-ancestors {' '.join(embedders)}"}
+    return {
+        "Content-Security-Policy": "frame-ancestors 'none'",
+        "X-Frame-Options": "DENY",
+    }
 
 
 def is_foreign(origin: str, addressed: str | None, host: str) -> bool:
@@ -59,7 +97,10 @@ def is_foreign(origin: str, addressed: str | None, host: str) -> bool:
         addressed: the request's Host header, such as 127.0.0.1:8080.
         host: address that the server listens on.
     """
-    parts = urlsplit(origin)
+    try:
+        parts = urlsplit(origin)
+    except ValueError:  # of a bracket that is not closed, for one
+        return True
     if addressed is None or parts.netloc.lower() != addressed.lower():
         return True
     name = (parts.hostname or "").lower().rstrip(".")
@@ -79,13 +120,16 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _refusal(request: Request, host: str) -> str | None:
-    """Reason to refuse a request to the server at `host`, None to answer it."""
+def _refusal(request: Request, host: str) -> tuple[HTTPStatus, str] | None:
+    """Why to refuse a request to the server at `host`, None to answer it."""
     headers = request.headers
     hosts = headers.get_all("Host")
     addressed = hosts[0] if len(hosts) == 1 else None
     if any(is_foreign(origin, addressed, host) for origin in headers.get_all("Origin")):
-        return "This server answers the pages that it sent itself, and no others.\n"
+        said = "This server answers the pages that it sent itself, and no others.\n"
+        return HTTPStatus.FORBIDDEN, said
+    if len(request.path.partition("?")[0]) > _LONGEST_PATH:
+        return HTTPStatus.REQUEST_URI_TOO_LONG, "There is no page at so long a path.\n"
     return None
 
 

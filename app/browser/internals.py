@@ -1,19 +1,13 @@
-"""Private parts of viser, of its page and of websockets that the app relies on, and why.
+"""Private parts of viser and of its page that the app relies on, and why.
 
 `tests/app/browser/test_internals.py` fails for each that an upgrade has changed.
 """
 
-import contextlib
-import functools
-import http
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 import viser
-import websockets.asyncio.server as websocket_server
 from viser._messages import GuiUpdateMessage, RunJavascriptMessage
-from websockets.asyncio.server import ServerConnection
-from websockets.http11 import Request, Response
 
 SCENE_CANVAS = "canvas[data-engine]"
 """Canvas of the scene, by three.js's attribute; used for its size, which viser does not report."""
@@ -141,15 +135,6 @@ if (!window.tofscopeKeeps) {{
 it. viser shows them at once: they take the place of what is selected or half typed there, and the
 next keys go into another number than the one that was meant."""
 
-CONNECTION_LOGGER = "websockets.server"
-"""Logger that reports connections closed before any request as errors; browsers open such
-connections."""
-
-CLOSED_CONNECTION = r"Queued a .* on a closed connection"
-"""viser's warning about a message to a disconnected client, which is harmless."""
-
-_Answer = Callable[[ServerConnection, Request], Response | None]
-
 
 def element_id(control: viser.GuiInputHandle[Any]) -> str:
     """Id of a control's element in the page, for scripts."""
@@ -173,28 +158,3 @@ def send_value(control: viser.GuiInputHandle[Any]) -> None:
 def run_script(client: viser.ClientHandle, script: str) -> None:
     """Run a script in the page, after all messages sent before."""
     client.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
-
-
-@contextlib.contextmanager
-def guarding_requests(refused: Callable[[Request], str | None]) -> Iterator[None]:
-    """Context in which a server started by viser gets a request filter, which viser cannot take.
-
-    Args:
-        refused: returns the reason to refuse a request, None to answer it.
-    """
-    serve = websocket_server.serve
-
-    @functools.wraps(serve)
-    def guarded(*arguments: Any, process_request: _Answer, **options: Any) -> Any:  # noqa: ANN401
-        def answer(connection: ServerConnection, request: Request) -> Response | None:
-            if (reason := refused(request)) is not None:
-                return connection.respond(http.HTTPStatus.FORBIDDEN, reason)
-            return process_request(connection, request)
-
-        return serve(*arguments, process_request=answer, **options)
-
-    setattr(websocket_server, "serve", guarded)  # noqa: B010 (a class is not assignable to)
-    try:
-        yield
-    finally:
-        setattr(websocket_server, "serve", serve)  # noqa: B010

@@ -55,23 +55,22 @@ localStorage.setItem("{STORAGE_PREFIX}%s", window.innerWidth);
 """
 
 # viser does not report the page's address, but can read its storage. The link is removed from the
-# address, so that a reload restores the last state and not the link's.
+# address first, so that a reload restores the last state and not the link's.
 _LINK = "link"
 _LINK_TO_STORAGE = f"""
 const query = new URLSearchParams(location.search);
 const link = query.get("{_LINK}");
 if (link !== null) {{
-  localStorage.setItem("{STORAGE_PREFIX}{_LINK}", link);
   query.delete("{_LINK}");
   history.replaceState(null, "", location.pathname + (query.size ? "?" + query : ""));
+  localStorage.setItem("{STORAGE_PREFIX}%s", link);
 }}
 """
 
-# Tabs share the local storage, but each is a session of its own.
 _TOKEN = "session"
 _TOKEN_TO_STORAGE = f"""
 localStorage.setItem(
-  "{STORAGE_PREFIX}{_TOKEN}", sessionStorage.getItem("tofscope-{_TOKEN}") ?? "");
+  "{STORAGE_PREFIX}%s", sessionStorage.getItem("tofscope-{_TOKEN}") ?? "");
 """
 _KEEP_TOKEN = f"""
 sessionStorage.setItem("tofscope-{_TOKEN}", "%s");
@@ -99,15 +98,13 @@ def set_up_keys(client: viser.ClientHandle) -> None:
 def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
     """Take the token of the link that the page was opened with, None without one.
 
+    Nothing of it stays in the browser.
+
     Raises:
         RuntimeError: the client has disconnected, or its browser has no storage.
         TimeoutError: no answer within `timeout` seconds.
     """
-    run_script(client, _LINK_TO_STORAGE)
-    token = client.local_storage.get_item(_LINK, timeout=timeout)
-    if token is not None:
-        client.local_storage.remove_item(_LINK)
-    return token
+    return _answer(client, _LINK_TO_STORAGE, timeout) or None
 
 
 def take_token(client: viser.ClientHandle, timeout: float) -> str | None:
@@ -117,8 +114,7 @@ def take_token(client: viser.ClientHandle, timeout: float) -> str | None:
         RuntimeError: the client has disconnected, or its browser has no storage.
         TimeoutError: no answer within `timeout` seconds.
     """
-    run_script(client, _TOKEN_TO_STORAGE)
-    return client.local_storage.get_item(_TOKEN, timeout=timeout) or None
+    return _answer(client, _TOKEN_TO_STORAGE, timeout) or None
 
 
 def keep_token(client: viser.ClientHandle, token: str) -> None:
@@ -160,10 +156,17 @@ def window_width(client: viser.ClientHandle) -> int:
         return client.camera.image_width
 
 
-def _answer(client: viser.ClientHandle, script: str) -> str:
-    """Result of a script that stores it under the key put into it, empty without a storage."""
-    key = f"answer-{uuid4()}"  # tabs share their storage
+def _answer(client: viser.ClientHandle, script: str, timeout: float = 5.0) -> str:
+    """Result of a script that stores it under the key put into it, empty without one.
+
+    Raises:
+        RuntimeError: the client has disconnected, or its browser has no storage.
+        TimeoutError: no answer within `timeout` seconds.
+    """
+    # Tabs share their storage, and what stays there after a lost connection must not be found.
+    key = f"answer-{uuid4()}"
     run_script(client, script % key)
-    answer = client.local_storage.get_item(key, timeout=5.0)
-    client.local_storage.remove_item(key)
-    return answer or ""
+    try:
+        return client.local_storage.get_item(key, timeout=timeout) or ""
+    finally:
+        client.local_storage.remove_item(key)

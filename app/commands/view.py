@@ -2,6 +2,7 @@
 
 import argparse
 import ipaddress
+import re
 import sys
 import threading
 from pathlib import Path
@@ -12,6 +13,9 @@ from app.commands.signals import ending_at_once, handled
 from recordings import sample_paths
 
 _LOOK_UP = 0.5  # seconds
+# A host is a name, an IPv4 address, or an IPv6 address in brackets; what else stands there could
+# end the header that the origin is put into, or allow more than one origin.
+_ORIGIN = re.compile(r"https?://(?:[a-z0-9_-]+(?:\.[a-z0-9_-]+)*|\[[0-9a-f:.]+\])(?::\d{1,5})?")
 
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
@@ -35,6 +39,17 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     )
     parser.add_argument(
         "--port", type=_port, default=8080, help="port to serve at, 0 for a free one (default 8080)"
+    )
+    parser.add_argument(
+        "--embed-in",
+        action="append",
+        default=[],
+        type=_origin,
+        metavar="ORIGIN",
+        help=(
+            "let pages of this origin, such as https://lab.example, show the app in a frame; may "
+            "be given several times (default: no page may)"
+        ),
     )
     add_recording_flags(parser)
     add_parameter_flags(parser)
@@ -60,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
 
     ended, shared = threading.Event(), Shared(library, Estimates(), Reloads(), parameters)
     with handled(lambda *_: ended.set()):
-        server = Server(shared, options.host, options.port)
+        server = Server(shared, options.host, options.port, options.embed_in)
         try:
             if not _is_loopback(options.host):
                 print(_warning(options.host, server.address_for_others), file=sys.stderr)
@@ -94,3 +109,13 @@ def _port(text: str) -> int:
     if not text.isdecimal() or int(text) > 65535:
         raise argparse.ArgumentTypeError(f"a port is a number from 0 to 65535, got {text!r}")
     return int(text)
+
+
+def _origin(text: str) -> str:
+    origin = text.lower().removesuffix("/")
+    if not _ORIGIN.fullmatch(origin):
+        raise argparse.ArgumentTypeError(
+            "an origin is http:// or https:// and a host, with a port where it has one, such as "
+            f"https://lab.example or http://localhost:8888, got {text!r}"
+        )
+    return origin

@@ -1,5 +1,6 @@
 """Explanation of a pair: all clusters' outcomes, the picked one's story, histograms."""
 
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,8 @@ from app.panels.histograms import Histogram, upper_limit
 from app.panels.panel import Panel, PanelContext
 from app.panels.tables import framed
 from app.scene.palettes import Palette
-from app.session.command import LatestWins
+from app.session.command import Command, LatestWins
+from app.session.commands import Refuse
 from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
 from estimator import ClusterResult, Parameters
@@ -73,8 +75,7 @@ class ExplainPanel(Panel):
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
-                chosen = self._list.value
-                post(PickCluster(None if chosen == _NONE else int(chosen.split()[0])))
+                post(_pick(self._list.value))
 
         # viser does not report drags, which turn the camera, as clicks.
         @context.client.scene.on_click()
@@ -158,6 +159,16 @@ class ExplainPanel(Panel):
         if options != self._list.options:
             self._list.options = options
         show_value(self._list, next(name for name, index in indices.items() if index == picked))
+
+
+def _pick(chosen: str) -> Command:
+    """Command for an option; its number counts, since labels change with the estimate."""
+    number = chosen.partition(" ")[0]
+    if chosen == _NONE:
+        return PickCluster(None)
+    if number.isdecimal() and len(number) < 10:
+        return PickCluster(int(number))
+    return Refuse(f"There is no cluster {reprlib.repr(chosen)}; choose one of the list.")
 
 
 def _name(cluster: ClusterResult) -> str:

@@ -14,16 +14,16 @@ from app.panels.playback_commands import (
     ChangePlayback,
     JumpToMotion,
     add_commands,
-    speed_from,
     speed_name,
 )
 from app.panels.timeline_strip import strip
-from app.panels.triggers import post_on
+from app.panels.triggers import post_chosen, post_on
 from app.session.clock import SPEEDS, Playback
 from app.session.commands import TogglePlay, seek, step
 from app.session.snapshot import Snapshot
 
 _JUMPS = {"Previous": -1, "Next": 1}
+_SPEEDS = {speed_name(speed): speed for speed in SPEEDS}
 
 
 class PlaybackPanel(Panel):
@@ -53,7 +53,7 @@ class PlaybackPanel(Panel):
             )
             self._speed = gui.add_dropdown(
                 "Speed",
-                tuple(speed_name(speed) for speed in SPEEDS),
+                tuple(_SPEEDS),
                 initial_value=speed_name(1.0),
                 hint="Of the recording's own. Keys: Shift+J slower, Shift+L faster.",
             )
@@ -75,15 +75,18 @@ class PlaybackPanel(Panel):
 
         @steps.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(step(STEPS[steps.value]))
+            post_chosen(post, steps, STEPS, step)
 
         @jumps.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(JumpToMotion((_JUMPS[jumps.value],)))
+            post_chosen(post, jumps, _JUMPS, lambda direction: JumpToMotion((direction,)))
 
         @self._speed.on_update
         async def _(event: viser.GuiEvent) -> None:
-            self._change(event, speed=speed_from(self._speed.value))
+            if event.client_id is not None:
+                post_chosen(
+                    post, self._speed, _SPEEDS, lambda speed: ChangePlayback({"speed": speed})
+                )
 
         @self._loop.on_update
         async def _(event: viser.GuiEvent) -> None:
@@ -91,8 +94,9 @@ class PlaybackPanel(Panel):
 
         @self._range.on_update
         async def _(event: viser.GuiEvent) -> None:
-            first, last = (int(frame) for frame in self._range.value)
-            self._change(event, first=first, last=last)
+            ends = [frame for frame in self._range.value if isinstance(frame, int)]
+            if len(ends) == 2:  # a browser may send anything
+                self._change(event, first=ends[0], last=ends[1])
 
         self._followed: Playback | None = None
         add_commands(gui, post)

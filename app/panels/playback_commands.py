@@ -91,11 +91,6 @@ def speed_name(speed: float) -> str:
     return f"{speed:g}x"
 
 
-def speed_from(name: str) -> float:
-    """Speed of a text of `speed_name`."""
-    return float(name.removesuffix("x"))
-
-
 def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     """Add the commands to the command palette, with keys."""
 

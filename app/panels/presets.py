@@ -11,7 +11,7 @@ from app.analysis.parameter_files import from_text, to_text
 from app.browser.controls import show_value
 from app.errors import InputError
 from app.panels.panel import Panel, PanelContext
-from app.panels.triggers import post_on
+from app.panels.triggers import post_chosen, post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download, Notice
 from app.session.presets import Presets, PresetUse, preset_folder
@@ -118,8 +118,8 @@ class PresetsPanel(Panel):
         # Coroutines run at once, before the control's value can change again.
         @uses.on_click
         async def _(_: viser.GuiEvent) -> None:
-            if self._list.value != _NONE:
-                post(UsePreset(_USES[uses.value], self._list.value))
+            if (name := self._list.value) != _NONE:
+                post_chosen(post, uses, _USES, lambda action: UsePreset(action, name))
 
         @saves.on_click
         async def _(_: viser.GuiEvent) -> None:

@@ -9,6 +9,7 @@ from viser import Icon
 
 from app.browser.controls import show_value
 from app.panels.panel import Panel, PanelContext
+from app.panels.triggers import post_chosen
 from app.scene.lens import Lens, aspect_of
 from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS
@@ -107,7 +108,7 @@ class ViewPanel(Panel):
 
         @views.on_click
         async def _(_: viser.GuiEvent) -> None:
-            self._post(SetView(views.value))
+            post_chosen(self._post, views, {view: view for view in VIEWS}, SetView)
 
         for view, key in _KEYS.items():
             command = self._gui.add_command(f"View: {view}", hotkey=key, icon=Icon.CAMERA)

@@ -1,12 +1,11 @@
 """Web server with one session per browser client."""
 
 import socket
-import warnings
+from collections.abc import Sequence
 
 import viser
 
 from app.browser.guarded_server import GuardedServer
-from app.browser.internals import CLOSED_CONNECTION
 from app.errors import InputError
 from app.panels.page import TITLE
 from app.scene.theme import apply_theme
@@ -25,18 +24,17 @@ class Server:
         shared: parts common to all sessions.
         host: address to listen on.
         port: port to listen on, 0 for any free one.
+        embedders: origins whose pages may show the page in a frame.
 
     Raises:
         InputError: the port is in use, or this machine has no such address.
     """
 
-    def __init__(self, shared: Shared, host: str, port: int) -> None:
+    def __init__(self, shared: Shared, host: str, port: int, embedders: Sequence[str] = ()) -> None:
         _check_free(host, port)
-        # A client may disconnect while its session is drawing.
-        warnings.filterwarnings("ignore", message=CLOSED_CONNECTION)
         self._sessions: dict[int, Session] = {}
         self._memory = MemoryRelease()
-        self._server = GuardedServer(host, port, label=TITLE)
+        self._server = GuardedServer(host, port, TITLE, embedders)
         self.host, self.port = host, self._server.get_port()
         apply_theme(self._server.gui, dark=False)
         self._server.gui.main_panel.dock_right()

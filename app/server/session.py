@@ -126,6 +126,10 @@ class Session:
             pass  # a browser without storage starts a new session
         except InputError as error:
             self._report(str(error))
+        except Exception:
+            # Whatever a browser keeps or sends must not keep anybody out.
+            _LOG.exception("A link or a reload could not be followed.")
+            self._report("What this page showed before could not be found; it begins anew.")
         keep_token(self._client, token)
         return token, saved
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
 
+from app.errors import InputError
 from app.session.command import Background, LatestWins, Repeated
 from app.session.followed_survey import SurveyUpdate
 from app.session.links import SavedSession
@@ -144,6 +145,17 @@ class ChangeView:
     def apply(self, workbench: Workbench) -> None:
         """Redraw with them."""
         workbench.change_view(self.values)
+
+
+@dataclass(frozen=True)
+class Refuse(LatestWins):
+    """Tell that what a control sent cannot be used, and why."""
+
+    sentence: str
+
+    def apply(self, workbench: Workbench) -> None:
+        """Raise InputError."""
+        raise InputError(self.sentence)
 
 
 @dataclass(frozen=True)

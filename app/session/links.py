@@ -18,6 +18,7 @@ from estimator import Parameters, to_nested
 
 _LONGEST = 4000  # characters of a link's token
 _FARTHEST = 1e5  # metres
+_FRAMES = 10**9  # more than any recording has
 _DAMAGED = "The link is damaged; copy it once more."
 
 
@@ -92,7 +93,7 @@ class _Link(BaseModel):
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
 
     recording: str
-    frame: int
+    frame: Annotated[int, Field(ge=0, lt=_FRAMES)]
     parameters: dict[str, JsonValue]
     camera: tuple[_Metres, _Metres, _Metres, _Metres, _Metres, _Metres, _Radians] | None = None
 

@@ -35,7 +35,10 @@ class FakeStorage:
 
 
 class FakeClient:
-    """Stands in for a `viser.ClientHandle`, on the scene and GUI of a server of its own."""
+    """Stands in for a `viser.ClientHandle`, on the scene and GUI of a server of its own.
+
+    Its storage is the browser's and the tab's in one; `link` is that of the page's address.
+    """
 
     client_id = 1
 
@@ -57,6 +60,7 @@ class FakeClient:
         self.render: Any = np.zeros((60, 80, 4), dtype=np.uint8)
         self.sent: list[Any] = []
         self.legend = ""
+        self.link: str | None = None
         server._connected_clients[self.client_id] = cast(Any, self)
         queue = server._websock_server.queue_message
 
@@ -72,6 +76,12 @@ class FakeClient:
         """Carry out the scripts that store a value or set the legend, as a browser would."""
         if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
             self.local_storage.set_item(*kept.groups())
+        if key := re.search(r'"viser-user:(answer-[\w-]+)"', script):
+            if "sessionStorage.getItem" in script:
+                self.local_storage.set_item(key[1], self.local_storage.get_item("session") or "")
+            elif 'query.get("link")' in script and self.link is not None:
+                self.local_storage.set_item(key[1], self.link)
+                self.link = None
         if legend := re.search(r"legend.innerHTML = (.*);", script):
             self.legend = json.loads(legend[1])
 

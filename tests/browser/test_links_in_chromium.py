@@ -1,9 +1,11 @@
 """Links and reloads in a real Chromium."""
 
 import numpy as np
-from playwright.sync_api import BrowserContext
+import pytest
+from playwright.sync_api import Browser, BrowserContext
 
 from app.server.server import Server
+from tests.browser.conftest import NO_DRAWING
 from tests.browser.tab import Tab
 
 _CAMERA = "Array.from(window.__viserMutable.camera.matrixWorld.elements)"
@@ -65,3 +67,47 @@ def test_a_reload_keeps_camera_and_view(tab: Tab):
 def test_a_damaged_link_is_told(context: BrowserContext, server: Server):
     tab = Tab(context, f"{server.address}/?link=nonsense")
     tab.until(lambda: tab.page.get_by_role("alert").filter(has_text="link is damaged").count() > 0)
+
+
+SURROGATE = "eyJyZWNvcmRpbmciOiJcdWQ4MDAiLCJmcmFtZSI6MCwicGFyYW1ldGVycyI6e319"
+"""{"recording": a lone surrogate, "frame": 0, "parameters": {}}"""
+
+_RUBBISH = """link => {
+  const odd = ["", "\\ud800", "[".repeat(100000), "x".repeat(1000000), "{\\"a\\": 1}", link];
+  odd.forEach((value, k) => {
+    for (const key of ["link", "session", "answer-" + k])
+      localStorage.setItem("viser-user:" + key, value);
+  });
+  sessionStorage.setItem("tofscope-session", "\\ud800".repeat(100000));
+}"""
+
+
+@pytest.fixture
+def fresh(chromium: Browser):
+    """A window whose storage is its own."""
+    window = chromium.new_context()
+    window.set_default_timeout(10_000)
+    window.add_init_script(NO_DRAWING)
+    yield window
+    window.close()
+
+
+def test_a_link_that_cannot_be_encoded_leaves_the_app_as_it_is(
+    fresh: BrowserContext, server: Server
+):
+    tab = Tab(fresh, f"{server.address}/?link={SURROGATE}")  # waits for arrows
+    tab.until(lambda: tab.page.get_by_role("alert").filter(has_text="link is damaged").count() > 0)
+    kept = "Object.keys(localStorage).filter(key => key.startsWith('viser-user:'))"
+    tab.until(lambda: not tab.page.evaluate(kept))
+    tab.page.close()
+    again = Tab(fresh, server.address)
+    assert again.page.get_by_role("alert").filter(has_text="damaged").count() == 0
+
+
+def test_whatever_a_browser_keeps_the_page_comes_up(fresh: BrowserContext, server: Server):
+    tab = Tab(fresh, server.address)
+    tab.page.evaluate(_RUBBISH, SURROGATE)
+    tab.page.reload()
+    tab.until(lambda: tab.has_text("Moving") and len(tab.arrows()) > 0)
+    alerts = tab.page.get_by_role("alert").all_inner_texts()
+    assert not [said for said in alerts if "link" in said or "anew" in said]

@@ -1,3 +1,4 @@
+import os
 import threading
 from typing import Any
 
@@ -46,6 +47,18 @@ def test_equal_names_get_their_folder_or_else_their_path(tmp_path):
     third = touched(tmp_path / "y", "a.mcap", "c.mcap")
     labels = [entry.label for entry in Library([first, second, third], Opener()).listing()]
     assert labels == [str(first / "a.mcap"), str(second / "a.mcap"), "y/a.mcap", "c"]
+
+
+def test_labels_are_text_that_a_page_can_send_back(tmp_path):
+    path = tmp_path / os.fsdecode(b"a\xff.mcap")
+    try:
+        path.touch()
+    except OSError:
+        pytest.skip("this file system takes no such names")
+    (tmp_path / "\u00e4.mcap").touch()
+    listing = Library([tmp_path], Opener()).listing()
+    assert {entry.label for entry in listing} == {r"a\xff", "ä"}
+    assert path in {entry.path for entry in listing}
 
 
 def test_new_files_appear_in_the_next_listing(tmp_path):

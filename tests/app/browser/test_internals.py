@@ -1,20 +1,14 @@
-"""Canaries: each says in words what an upgrade of viser or websockets has changed."""
+"""Canaries: each says in words what an upgrade of viser has changed."""
 
 import inspect
-import logging
 import re
 import threading
 from pathlib import Path
 
-import pytest
-import viser
 import viser._messages
-import viser.infra
-import websockets.asyncio.server as websocket_server
 
 import app
-from app.browser import internals
-from app.browser.guarded_server import GuardedServer
+from app.browser import connections, internals
 from tests.app.browser.viser_page import page, scripts_and_styles
 
 INTERNALS = "app/browser/internals.py"
@@ -63,19 +57,6 @@ def test_a_script_is_sent_to_the_page(client):
     (message,) = client.take_sent()
     assert message == viser._messages.RunJavascriptMessage(source="1 + 1")
     in_page("RunJavascriptMessage", why="`run_script` runs nothing")
-
-
-def test_viser_serves_with_what_is_guarded():
-    server = inspect.getsource(viser.infra.WebsockServer)
-    for part in ("websockets.asyncio.server.serve(", "process_request="):
-        assert part in server, (
-            f"viser does not serve by {part!r} any more: `guarding_requests` of {INTERNALS} "
-            "guards nothing, and foreign pages are let in"
-        )
-    before = websocket_server.serve
-    with internals.guarding_requests(lambda _: None):
-        assert websocket_server.serve is not before
-    assert websocket_server.serve is before
 
 
 def test_the_canvas_of_the_scene_is_found():
@@ -171,31 +152,14 @@ def test_the_player_of_an_offline_page_has_a_pause_button_that_can_be_found():
     in_page("player-pause-filled", why="typing a time does not pause (PAUSE_TO_TYPE)")
 
 
-def test_the_logger_of_connections_is_that_of_websockets():
-    source = inspect.getsource(websocket_server)
-    assert f'"{internals.CONNECTION_LOGGER}"' in source, (
-        f"websockets logs elsewhere: set CONNECTION_LOGGER of {INTERNALS}, or connections that "
-        "ask for nothing are complained of on the terminal"
-    )
-    GuardedServer("127.0.0.1", 0).stop()
-    assert not logging.getLogger(internals.CONNECTION_LOGGER).isEnabledFor(logging.ERROR)
-
-
-def test_a_message_to_a_client_that_has_gone_is_warned_of_in_these_words(client):
-    buffer = client.server._websock_server._broadcast_buffer
-    buffer.set_done()
-    # Other words are to be set as CLOSED_CONNECTION, or they come up on the terminal.
-    with pytest.warns(UserWarning, match=internals.CLOSED_CONNECTION):
-        buffer.push(viser._messages.RunJavascriptMessage(source="1 + 1"))
-
-
-def test_private_parts_are_used_in_one_file_alone():
+def test_private_parts_are_used_in_two_files_alone():
     root = Path(app.__file__).parent
+    private = {Path(inspect.getfile(module)) for module in (internals, connections)}
     used = [
         f"{path.relative_to(root)}: {line.strip()}"
         for path in sorted(root.rglob("*.py"))
-        if path != Path(internals.__file__) and "viser" in (text := path.read_text("utf-8"))
+        if path not in private and "viser" in (text := path.read_text("utf-8"))
         for line in text.splitlines()
         if re.search(r"(?<!\bself)(?<!\bcls)(?<!\bargparse)\._[a-z]|\bviser\._", line)
     ]
-    assert not used, f"put these into {INTERNALS}, with a test: {used}"
+    assert not used, f"put these into {INTERNALS} or connections.py, with a test: {used}"

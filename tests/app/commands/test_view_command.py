@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.command_line import main
+from app.commands import view
 
 TOFSCOPE = str(Path(sys.executable).parent / "tofscope")
 
@@ -53,6 +54,47 @@ def test_a_port_that_is_none(capsys, port):
     assert "a port is a number from 0 to 65535" in said
 
 
+@pytest.mark.parametrize(
+    "origin",
+    [
+        "",
+        "lab.example",
+        "ftp://lab.example",
+        "https://",
+        "https://*.example",
+        "https://lab.example/page",
+        "https://lab.example?x",
+        "https://a.example https://b.example",
+        "https://a.example;script-src *",
+        "https://a.example\r\nSet-Cookie: x",
+        "https://me@lab.example",
+        "http://lab.example:port",
+        "http://[::1",
+        "'self'",
+        "*",
+        "null",
+    ],
+)
+def test_an_origin_that_is_none(capsys, origin):
+    code, said = refusal(capsys, f"--embed-in={origin}")
+    assert code == 2
+    assert "an origin is http:// or https:// and a host" in said
+
+
+@pytest.mark.parametrize(
+    ("given", "sent"),
+    [
+        ("https://lab.example", "https://lab.example"),
+        ("http://localhost:8888/", "http://localhost:8888"),
+        ("HTTP://Lab.Example:81", "http://lab.example:81"),
+        ("http://[::1]:8888", "http://[::1]:8888"),
+        ("http://192.0.2.7", "http://192.0.2.7"),
+    ],
+)
+def test_an_origin_is_as_browsers_write_it(given, sent):
+    assert view._origin(given) == sent
+
+
 def test_a_port_in_use(capsys, tmp_path):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
@@ -73,7 +115,15 @@ def test_help_is_for_people(capsys):
         main(["view", "--help"])
     assert ended.value.code == 0
     said = capsys.readouterr().out
-    for word in ("--host", "--port", "--fixed-frame", "--truth-frame", "--n-min", "samples"):
+    for word in (
+        "--host",
+        "--port",
+        "--embed-in",
+        "--fixed-frame",
+        "--truth-frame",
+        "--n-min",
+        "samples",
+    ):
         assert word in said
 
 

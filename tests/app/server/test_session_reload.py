@@ -100,7 +100,7 @@ def test_a_reload_restores_playback_and_comparison(client, shared, runs):
 
 def arrive(client, shared, token):
     """A session whose page was opened with a link."""
-    client.local_storage.set_item("link", token)
+    client.link = token
     session = Session(client, shared)
     until(lambda: "Moving" in client.text() or "No pair" in client.text())
     session.close()
@@ -115,7 +115,7 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
     assert set(runs.parameters) == {Parameters(n=5, delta=0.01)}
     assert tuple(client.camera.position) == camera.position
     assert tuple(client.camera.look_at) == camera.look_at
-    assert client.local_storage.get_item("link") is None
+    assert set(client.local_storage.items) == {"session"}
     # What was left is found again, and not the link.
     with FakeClient.on_a_server(client.local_storage) as again:
         session = Session(again, shared)
@@ -128,6 +128,11 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
     ("token", "sentence"),
     [
         ("nonsense", "The link is damaged"),
+        # {"recording":"\\ud800","frame":0,"parameters":{}}
+        (
+            "eyJyZWNvcmRpbmciOiJcdWQ4MDAiLCJmcmFtZSI6MCwicGFyYW1ldGVycyI6e319",
+            "The link is damaged",
+        ),
         (
             SavedSession("zz", 3, Parameters(n=5, delta=0.01)).token(),
             "The recording zz is not among those",
@@ -139,6 +144,29 @@ def test_a_link_that_leads_nowhere_is_told(client, shared, runs, token, sentence
     assert any(sentence in said for said in client.notifications)
     assert client.control("Recording").value == "a"
     assert set(runs.parameters) == {Parameters()}
+
+
+def test_whatever_fails_on_the_way_a_session_begins(client, shared, runs, monkeypatch):
+    def fail(_):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("app.server.session.from_token", fail)
+    arrive(client, shared, "anything")
+    assert client.notifications == [
+        "What this page showed before could not be found; it begins anew."
+    ]
+    assert set(client.local_storage.items) == {"session"}  # the link is gone for good
+
+
+@pytest.mark.parametrize("kept", ["", "x" * 1_000_000, "\udfff", "[" * 1000, "0"])
+def test_whatever_a_tab_keeps_a_session_begins(client, shared, runs, kept):
+    client.local_storage.set_item("session", kept)
+    client.local_storage.set_item("link", kept)  # that nothing reads
+    session = Session(client, shared)
+    until(lambda: "Moving" in client.text())
+    session.close()
+    session.join(10)
+    assert not client.notifications
 
 
 def test_the_link_that_is_copied_leads_here(session, client):

@@ -65,6 +65,20 @@ def made(**changes):
         made(camera=[1, 2, 3, 4, 5, float("nan"), 0.7]),
         made(camera=[1, 2, 1e9, 4, 5, 6, 0.7]),
         made(camera=[1, 2, 3, 4, 5, 6, 9.0]),
+        made(camera=[int("1" * 400), 2, 3, 4, 5, 6, 0.7]),
+        made(camera=[int("1" * 400)] * 7),
+        made(camera=[True, 2, 3, 4, 5, 6, 0.7]),
+        made(frame=True),
+        made(frame=-1),
+        made(frame=2.0),
+        made(frame=2**63),
+        made(frame=int("9" * 400)),
+        made(recording="\ud800"),
+        made(parameters={"\udfff": 1}),
+        made(parameters={"method": "\ud83d"}),
+        base64.urlsafe_b64encode(
+            b'{"recording":"a","frame":3,"parameters":{"n":' + b"[" * 1400 + b"]" * 1400 + b"}}"
+        ).decode(),
     ],
 )
 def test_a_damaged_token_is_told(token):
@@ -75,5 +89,7 @@ def test_a_damaged_token_is_told(token):
 def test_parameters_that_cannot_be_used_are_told():
     with pytest.raises(InputError, match="The link: gamma must be between 0 and 1"):
         from_token(made(parameters={"gamma": 7}))
+    with pytest.raises(InputError, match="The link: n must be a number"):
+        from_token(made(parameters={"n": [[[[[5]]]]]}))
     with pytest.raises(InputError, match="The link: speed is no parameter"):
         from_token(made(parameters={"speed": 7}))
