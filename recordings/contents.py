@@ -123,15 +123,8 @@ def natural_key(text: str) -> list[tuple[int, int, str]]:
 
 def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     kind = channel.schema_name.replace("/msg/", "/")
-    if kind not in (_TRANSFORMS, *_BY_TYPE) and range_format(kind) is None:
-        return Topic(channel, Use.NOTHING, f"{channel.schema_name or 'its type'} is not needed")
-    if len(channel.topic) > _LONGEST_NAME:
-        return Topic(channel, Use.NOTHING, "its name is too long")
-    if not decoder.can_decode(channel):
-        encoding = f"{channel.encoding} with schema {channel.schema_encoding or 'none'}"
-        return Topic(channel, Use.NOTHING, f"its encoding ({encoding}) cannot be read")
-    if len(file.table(channel)) == 0:
-        return Topic(channel, Use.NOTHING, "it has no messages")
+    if why_not := _unusable(channel, kind, file, decoder):
+        return Topic(channel, Use.NOTHING, why_not)
     if misfit := decoder.misfit(channel):
         return Topic(channel, Use.NOTHING, f"it does not fit its type: {misfit}", damaged=True)
     if kind == _TRANSFORMS:
@@ -142,6 +135,18 @@ def _topic(channel: ChannelInfo, file: McapFile, decoder: Decoder) -> Topic:
     if first is None:
         return Topic(channel, Use.NOTHING, "its messages do not fit its type", damaged=True)
     return _by_content(channel, kind, first)
+
+
+def _unusable(channel: ChannelInfo, kind: str, file: McapFile, decoder: Decoder) -> str:
+    """Why a channel cannot be used whatever its messages hold, "" where it may be."""
+    if kind not in (_TRANSFORMS, *_BY_TYPE) and range_format(kind) is None:
+        return f"{channel.schema_name or 'its type'} is not needed"
+    if len(channel.topic) > _LONGEST_NAME:
+        return "its name is too long"
+    if not decoder.can_decode(channel):
+        encoding = f"{channel.encoding} with schema {channel.schema_encoding or 'none'}"
+        return f"its encoding ({encoding}) cannot be read"
+    return "" if len(file.table(channel)) else "it has no messages"
 
 
 def _by_content(channel: ChannelInfo, kind: str, first: Any) -> Topic:  # noqa: ANN401

@@ -1,9 +1,16 @@
 """Frames of a recording: assignment of the sensors' messages to frames."""
 
+import math
+from bisect import bisect_right
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from recordings.errors import RecordingError
+
+MOST_READINGS = 2**25
+"""Frames of a recording times its sensors: 25 hours of 24 sensors at 15 Hz."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,9 @@ def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
 
     Args:
         stamps: header stamps (N_s,) in nanoseconds of each sensor, in the order of arrival.
+
+    Raises:
+        RecordingError: there are too many frames.
     """
     period = _period(stamps)
     stamp = np.concatenate(stamps)
@@ -44,27 +54,42 @@ def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
     message = np.concatenate([np.arange(len(s)) for s in stamps])
     order = np.argsort(stamp, kind="stable")
 
-    frame_stamps: list[int] = []
-    rows: list[NDArray[np.int64]] = []
-    dropped: list[NDArray[np.int64]] = []
-    for t, n, m in zip(
-        stamp[order].tolist(), sensor[order].tolist(), message[order].tolist(), strict=True
-    ):
-        if not rows or t - frame_stamps[-1] > 0.5 * period:
-            frame_stamps.append(t)
-            rows.append(np.full(len(stamps), -1, dtype=np.int64))
-            dropped.append(np.zeros(len(stamps), dtype=np.int64))
-        dropped[-1][n] += rows[-1][n] >= 0
-        rows[-1][n] = m
+    stamp, sensor, message = stamp[order], sensor[order], message[order]
+
+    first = _first_of_frames(stamp.tolist(), math.floor(0.5 * period))
+    if len(first) * len(stamps) > MOST_READINGS:
+        raise RecordingError(
+            f"The stamps of {len(stamps)} sensors make {len(first)} frames, and there may be "
+            f"{MOST_READINGS} readings; give the file in parts."
+        )
+    frame = np.repeat(np.arange(len(first)), np.diff([*first, len(stamp)]))
+    table = np.full((len(first), len(stamps)), -1, dtype=np.int64)
+    table[frame, sensor] = message  # of several the last
+    cells = np.sort(frame * len(stamps) + sensor)
+    starts = np.flatnonzero(np.diff(cells, prepend=-1))
+    dropped = np.zeros(len(first), dtype=np.int64)
+    again = np.diff(starts, append=len(cells)) - 1
+    np.maximum.at(dropped, cells[starts] // len(stamps), again)
     return FrameTable(
-        stamps=np.array(frame_stamps, dtype=np.int64),
-        message=np.array(rows, dtype=np.int64).reshape(-1, len(stamps)),
+        stamps=stamp[first],
+        message=table,
         period=period,
-        duplicates=int(sum(d.max() for d in dropped)),
+        duplicates=int(dropped.sum()),
     )
+
+
+def _first_of_frames(stamps: list[int], span: int) -> list[int]:
+    """Index of the first message of each frame, which holds those up to `span` ns later."""
+    first: list[int] = []
+    i = 0
+    while i < len(stamps):
+        first.append(i)
+        i = bisect_right(stamps, stamps[i] + span, lo=i + 1)
+    return first
 
 
 def _period(stamps: list[NDArray[np.int64]]) -> float:
     """Median time between distinct stamps of a sensor, 0 where there are none."""
-    gaps = np.concatenate([np.diff(np.unique(s)) for s in stamps])
+    gaps = np.concatenate([np.diff(np.sort(s)) for s in stamps])
+    gaps = gaps[gaps > 0]
     return float(np.median(gaps)) if len(gaps) else 0.0

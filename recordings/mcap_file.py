@@ -3,16 +3,19 @@
 import struct
 import threading
 from collections import OrderedDict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from typing import IO
 
+import numpy as np
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 from mcap.records import Attachment, Metadata
+from numpy.typing import NDArray
 from zstandard import ZstdError
 
 from recordings.chunks import LARGEST_RECORD, chunk_data
@@ -106,22 +109,31 @@ class McapFile:
         """
         table = self._tables[channel.id]
         chunk, offset = int(table.chunk[index]), int(table.offset[index])
-        try:
+        with self._in_words(channel, index):
             with self._lock:
-                if self._stream.closed:
-                    raise RecordingError(f"{self.path} is closed.")
                 if chunk == UNCHUNKED:
+                    self._check_open()
                     return self._record(offset, Opcode.MESSAGE)[MESSAGE_HEAD.size :]
                 data = self._chunk(chunk)
             _, length = RECORD_HEAD.unpack_from(data, offset)
             start = offset + RECORD_HEAD.size
             return data[start + MESSAGE_HEAD.size : start + length]
+
+    @contextmanager
+    def _in_words(self, channel: ChannelInfo, index: int) -> Iterator[None]:
+        """Context that turns errors of reading a message into those of `message`."""
+        try:
+            yield
         except OSError as error:
             raise RecordingError(f"{self.path} cannot be read: {error.strerror}.") from error
         except _BROKEN as error:
             raise BrokenFileError(
                 f"{self.path} is broken at message {index} of {channel.topic}: {_text(error)}."
             ) from error
+
+    def _check_open(self) -> None:
+        if self._stream.closed:
+            raise RecordingError(f"{self.path} is closed.")
 
     def attachment(self, name: str) -> bytes | None:
         """Content of an attachment; None where there is none, or it cannot be read."""
@@ -141,17 +153,54 @@ class McapFile:
         except _BROKEN:
             return None
 
-    def in_file_order(
-        self, channels: Iterable[ChannelInfo]
-    ) -> Iterator[tuple[ChannelInfo, int, bytes]]:
-        """The messages of several channels as (channel, index, payload), each chunk read once."""
-        messages: list[tuple[int, int, ChannelInfo, int]] = []
-        for channel in channels:
-            table = self._tables[channel.id]
-            rows = zip(table.chunk.tolist(), table.offset.tolist(), strict=True)
-            messages += [(chunk, offset, channel, i) for i, (chunk, offset) in enumerate(rows)]
-        for _, _, channel, index in sorted(messages, key=lambda message: message[:2]):
-            yield channel, index, self.message(channel, index)
+    def starts(
+        self, channels: Sequence[ChannelInfo], size: int
+    ) -> list[tuple[NDArray[np.uint8], NDArray[np.bool_]]]:
+        """First bytes of all messages of several channels, each chunk read once.
+
+        Returns:
+            For each channel (N, size) bytes of the payloads, and (N,) whether a payload has as many
+            bytes; the bytes of a shorter one are zero.
+
+        Raises:
+            BrokenFileError, RecordingError: as in `message`.
+        """
+        tables = [self._tables[channel.id] for channel in channels]
+        starts = [np.zeros((len(table), size), dtype=np.uint8) for table in tables]
+        whole = [np.zeros(len(table), dtype=bool) for table in tables]
+        chunk = np.concatenate([table.chunk for table in tables] or [np.zeros(0, np.int64)])
+        of = np.repeat(np.arange(len(tables)), [len(table) for table in tables])
+        row = np.concatenate([np.arange(len(table)) for table in tables] or [chunk])
+        order = np.argsort(chunk, kind="stable")
+        for group in np.split(order, np.flatnonzero(np.diff(chunk[order])) + 1):
+            for n in np.unique(of[group]).tolist():
+                rows = row[group[of[group] == n]]
+                found = self._starts(channels[n], rows, size)
+                starts[n][rows], whole[n][rows] = found
+        return list(zip(starts, whole, strict=True))
+
+    def _starts(
+        self, channel: ChannelInfo, rows: NDArray[np.int64], size: int
+    ) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+        """First bytes of some messages of a channel, all in the same chunk or in none."""
+        table = self._tables[channel.id]
+        chunk = int(table.chunk[rows[0]])
+        if chunk == UNCHUNKED:
+            payloads = [self.message(channel, row)[:size] for row in rows.tolist()]
+            padded = b"".join(payload.ljust(size, b"\0") for payload in payloads)
+            lengths = np.array([len(payload) for payload in payloads])
+            return np.frombuffer(padded, np.uint8).reshape(-1, size), lengths == size
+        with self._in_words(channel, int(rows[0])), self._lock:
+            data = np.frombuffer(self._chunk(chunk), dtype=np.uint8)
+        offset = table.offset[rows]
+        begin = RECORD_HEAD.size + MESSAGE_HEAD.size
+        inside = (offset >= 0) & (offset <= len(data) - begin)
+        at = np.where(inside, offset, 0)
+        length = _gather(data, at + 1, 8).view("<u8").ravel()
+        whole = inside & (at + begin + size <= len(data)) & (length >= MESSAGE_HEAD.size + size)
+        found = _gather(data, np.where(whole, at + begin, 0), size)
+        found[~whole] = 0
+        return found, whole
 
     def close(self) -> None:
         """Close the file."""
@@ -160,6 +209,7 @@ class McapFile:
             self._chunks.clear()
 
     def _chunk(self, start: int) -> bytes:
+        self._check_open()
         if start in self._chunks:
             self._chunks.move_to_end(start)
             return self._chunks[start]
@@ -257,6 +307,12 @@ class McapFile:
                 # Records are independent: those after a broken one can still be read.
                 contents.broken_chunks += 1
             position = start + length
+
+
+def _gather(data: NDArray[np.uint8], at: NDArray[np.int64], size: int) -> NDArray[np.uint8]:
+    """So many bytes (N, size) from each of several places, cut short at the end of the data."""
+    places = at[:, None] + np.arange(size)
+    return data[np.minimum(places, len(data) - 1)] if len(data) else np.zeros(places.shape, "u1")
 
 
 def _opened(path: Path) -> IO[bytes]:

@@ -16,6 +16,21 @@ def conformance_files(shared_data: Path) -> list[Path]:
     return sorted((shared_data / "mcap_conformance").glob("*/*.mcap"))
 
 
+def in_file_order(file: McapFile) -> list[bytes]:
+    """Payloads of all messages."""
+    places = [
+        (chunk, offset, channel, index)
+        for channel in file.channels
+        for index, (chunk, offset) in enumerate(
+            zip(
+                file.table(channel).chunk.tolist(), file.table(channel).offset.tolist(), strict=True
+            )
+        )
+    ]
+    ordered = sorted(places, key=lambda place: place[:2])
+    return [file.message(channel, index) for _, _, channel, index in ordered]
+
+
 def test_every_conformance_file_gives_its_channels_and_messages(shared_data: Path):
     files = conformance_files(shared_data)
     assert len(files) > 100
@@ -26,9 +41,33 @@ def test_every_conformance_file_gives_its_channels_and_messages(shared_data: Pat
         channels = {f["id"]: f["topic"] for kind, f in fields if kind == "Channel"}
         file = McapFile(path)
         assert {str(c.id): c.topic for c in file.channels} == channels, path
-        read = [list(payload) for _, _, payload in file.in_file_order(file.channels)]
+        read = [list(payload) for payload in in_file_order(file)]
         assert read == [[int(byte) for byte in m["data"]] for m in messages], path
         file.close()
+
+
+@pytest.mark.parametrize("compression", [*CompressionType, None])
+def test_the_first_bytes_of_messages_are_those_of_the_messages(
+    tmp_path: Path, compression: CompressionType | None
+):
+    path = tmp_path / "room.mcap"
+    made = write_room(tmp_path / "made.mcap", frames=4).path
+    path.write_bytes(
+        recompressed(made, compression or CompressionType.NONE, compression is not None)
+    )
+    file = McapFile(path)
+    size = 500  # more than some messages have
+    for channel, (starts, whole) in zip(
+        file.channels, file.starts(file.channels, size), strict=True
+    ):
+        payloads = [file.message(channel, i) for i in range(len(file.table(channel)))]
+        assert whole.tolist() == [len(payload) >= size for payload in payloads]
+        expected = [payload[:size] for payload, fits in zip(payloads, whole, strict=True) if fits]
+        assert [bytes(row) for row in starts[whole]] == expected
+        if compression is not None:
+            assert not starts[~whole].any()
+    assert file.starts([], size) == []
+    file.close()
 
 
 def test_messages_are_in_the_order_of_their_log_times(tmp_path: Path):
@@ -103,7 +142,7 @@ def test_a_broken_chunk_is_one_sentence(tmp_path: Path):
 def read_all(path: Path) -> None:
     file = McapFile(path)
     try:
-        list(file.in_file_order(file.channels))
+        in_file_order(file)
     finally:
         file.close()
 
@@ -119,7 +158,7 @@ def test_what_is_not_broken_is_salvaged(tmp_path: Path):
     path.write_bytes(bytes(content))
     file = McapFile(path, salvage=True)
     assert file.broken_chunks == 1
-    held = [payload for _, _, payload in file.in_file_order(file.channels)]
+    held = in_file_order(file)
     assert 0.8 * total < len(held) < total
     file.close()
 
@@ -147,10 +186,10 @@ def test_flipped_bytes_give_a_recording_or_one_sentence(
     assert not any("\n" in refusal for refusal in refusals)
 
 
-def recompressed(path: Path, compression: CompressionType) -> bytes:
+def recompressed(path: Path, compression: CompressionType, chunked: bool = True) -> bytes:
     """The same messages in a file with chunks of another kind."""
     buffer = io.BytesIO()
-    writer = Writer(buffer, chunk_size=20_000, compression=compression)
+    writer = Writer(buffer, chunk_size=20_000, compression=compression, use_chunking=chunked)
     writer.start(profile="ros2")
     schemas: dict[int, int] = {}
     channels: dict[int, int] = {}
