@@ -14,6 +14,8 @@ from recordings.mcap_file import McapFile
 from recordings.range_formats import range_format
 
 _STATUS_ENCODINGS = ("8UC1", "mono8")
+TRUTH_FIELDS = {"x", "y", "z", "vx", "vy", "vz", "object"}
+"""Fields of a cloud with the truth of points."""
 _TRUTH_NAMES = ("target", "truth")
 _LEAST_FOCAL, _LARGEST_FOCAL = 1e-2, 1e6
 """Zones: two of them would see nearly half the space around a sensor, or a point."""
@@ -196,9 +198,8 @@ def named_truth(topic: str) -> bool:
 
 def _points(topic: str, cloud: Any) -> Use | str:  # noqa: ANN401
     names = {field.name for field in cloud.fields}
-    needed = {"x", "y", "z", "vx", "vy", "vz", "object"}
-    if not needed <= names:
-        return f"it lacks {', '.join(sorted(needed - names))}, which the truth of points needs"
+    if missing := sorted(TRUTH_FIELDS - names):
+        return f"it lacks {', '.join(missing)}, which the truth of points needs"
     return Use.POINTS
 
 

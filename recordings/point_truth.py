@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from recordings.cloud import Cloud
-from recordings.contents import Topic
+from recordings.contents import TRUTH_FIELDS, Topic
 from recordings.decoding import Decoder
 from recordings.errors import MisfitError
 from recordings.point_clouds import fields_of
@@ -156,9 +156,11 @@ def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor
     Floats beyond `FARTHEST` are NaN; numbers that are none are -1.
 
     Raises:
-        MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
+        MisfitError: the cloud lacks a field, or has too few bytes for its size, or fields that do not fit.
     """
     table = {name: values.astype(np.float64) for name, values in fields_of(cloud).items()}
+    if missing := sorted(TRUTH_FIELDS - set(table)):
+        raise MisfitError(f"it lacks {', '.join(missing)}, which the truth of points needs")
     near = {name: np.abs(values) <= FARTHEST for name, values in table.items()}
     return {
         name: np.where(near[name], values, np.nan)

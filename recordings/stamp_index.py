@@ -43,7 +43,7 @@ def unpack(data: bytes, most: int) -> dict[str, NDArray[np.int64]]:
                 )
                 for member in members
             }
-    except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile):
+    except (OSError, ValueError, EOFError, KeyError, RuntimeError, zlib.error, zipfile.BadZipFile):
         return {}
 
 

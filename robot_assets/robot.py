@@ -206,9 +206,9 @@ def _robot(text: str, where: str, places: MeshPlaces) -> Robot:
     unknown = _remove_unknown_shapes(root)
     try:
         known = ElementTree.tostring(root) if unknown else text.encode("utf-8")
-        urdf = yourdfpy.URDF.load(BytesIO(known), load_meshes=False, build_scene_graph=False)
-        robot = Robot(urdf, str(urdf.robot.name), text, places, unknown)
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"):  # numbers that are none show in the poses at rest
+            urdf = yourdfpy.URDF.load(BytesIO(known), load_meshes=False, build_scene_graph=False)
+            robot = Robot(urdf, str(urdf.robot.name), text, places, unknown)
             at_rest = np.stack(list(robot.link_poses({}).values()))
     except Exception as error:  # yourdfpy has no error type of its own
         raise RobotError(f"{where} is not a URDF that can be used: {error}.") from error

@@ -1,0 +1,124 @@
+"""Trial of a hostile recording: everything that the app and the commands read of it."""
+
+import contextlib
+import io
+import json
+import logging
+import resource
+import time
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.analysis.notes import notes
+from app.commands import info
+from app.errors import UserError
+from recordings import Recording, open_recording
+from recordings.info import file_info
+from tests.fuzz.limits import CPU_SECONDS, MEMORY_BYTES
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Outcome of a trial.
+
+    Attributes:
+        refusal: sentence that the file was refused with, "" where it was opened.
+        faults: what must not happen, one line each.
+        seconds: of CPU time.
+    """
+
+    refusal: str
+    faults: tuple[str, ...]
+    seconds: float
+
+
+def tried(path: Path) -> Outcome:
+    """Open a file, read what there is to read of it, and tell about it."""
+    faults: list[str] = []
+    began = time.process_time()
+    with _told(faults):
+        refusal = _refused(lambda: _opened(path), faults)
+        _refused(lambda: _informed(path), faults)
+    seconds = time.process_time() - began
+    if seconds > CPU_SECONDS:
+        faults.append(f"it took {seconds:.1f} s of CPU")
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    if peak > MEMORY_BYTES:
+        faults.append(f"the process has {peak / 1e6:.0f} MB")
+    return Outcome(refusal, tuple(faults), seconds)
+
+
+def _opened(path: Path) -> None:
+    with open_recording(path) as recording:
+        last = len(recording) - 1
+        for k in sorted({0, last // 2, last}):
+            _frame(recording, k)
+        recording.pair_truth(0, last) if last else None
+        if recording.robot is not None:
+            _ = recording.robot.visual_meshes
+        for sentence in notes(recording):
+            _check_sentence(sentence)
+        summary = info._described(recording)
+        json.dumps(summary)
+        info._lines(summary)
+
+
+def _frame(recording: Recording, k: int) -> None:
+    recording.cloud(k)
+    recording.T_fixed_sensor(k)
+    recording.link_poses(k)
+    recording.joint_positions(k)
+    recording.truth(k)
+    recording.point_truth(k)
+
+
+def _informed(path: Path) -> None:
+    for topic in file_info(path).topics:
+        info._cells(topic)
+
+
+def _refused(action: Callable[[], None], faults: list[str]) -> str:
+    """The sentence that an action is refused with, "" where it is not."""
+    try:
+        action()
+    except UserError as error:
+        try:
+            _check_sentence(str(error))
+        except AssertionError as wrong:
+            faults.append(str(wrong))
+        return str(error)
+    except Exception as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        faults.append(f"{type(error).__name__} at {Path(place.filename).name}:{place.lineno}")
+    return ""
+
+
+def _check_sentence(text: str) -> None:
+    assert "\n" not in text, f"more than a line: {text[:100]!r}"
+    assert text.endswith("."), f"no sentence: {text[-100:]!r}"
+    assert "Traceback" not in text, f"a traceback: {text[:100]!r}"
+
+
+@contextlib.contextmanager
+def _told(faults: list[str]) -> Iterator[None]:
+    """Context in which warnings, log records and prints are faults."""
+    out, said = io.StringIO(), io.StringIO()
+    handler = logging.StreamHandler(said)
+    handler.setLevel(logging.WARNING)
+    last, logging.lastResort = logging.lastResort, handler
+    try:
+        with (
+            warnings.catch_warnings(record=True) as raised,
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(said),
+        ):
+            warnings.simplefilter("always", RuntimeWarning)
+            warnings.simplefilter("always", UserWarning)
+            yield
+    finally:
+        logging.lastResort = last
+    faults += [f"warning: {warning.message}" for warning in raised]
+    faults += [f"printed: {line}" for line in (out.getvalue() + said.getvalue()).splitlines()]
