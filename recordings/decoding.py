@@ -1,7 +1,7 @@
 """Decoding of ROS 2 messages (CDR) by the schemas in the file."""
 
-import threading
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from recordings.stamp_index import STAMP_INDEX, unpack
 
 _LARGEST_SCHEMA = 2**18
 """Bytes; the standard types with all that they use have some thousand."""
+_STORES = 64  # schemas whose types are kept; files have the same few
 _STAMP_END = 12
 """Bytes of a message up to the end of its header's stamp."""
 _TRIED = 100
@@ -36,8 +37,6 @@ class Decoder:
 
     def __init__(self, file: McapFile) -> None:
         self._file = file
-        self._stores: dict[tuple[str, bytes], Typestore] = {}
-        self._lock = threading.Lock()
         self._stamps: dict[int, NDArray[np.int64]] = {}
         self.left_out = LeftOut()
         index = file.attachment(STAMP_INDEX)
@@ -53,7 +52,7 @@ class Decoder:
         if len(channel.schema_data) > _LARGEST_SCHEMA:
             return f"its schema has {len(channel.schema_data)} bytes, too many"
         try:
-            return misfit(self._store(channel), channel.schema_name)
+            return misfit(_store_of(channel), channel.schema_name)
         except Exception:  # rosbags' parser can raise any error on a broken schema
             return "its schema cannot be read"
 
@@ -66,7 +65,7 @@ class Decoder:
         """
         data = self._file.message(channel, index)
         try:
-            return self._store(channel).deserialize_cdr(data, channel.schema_name)
+            return _store_of(channel).deserialize_cdr(data, channel.schema_name)
         except Exception as error:  # rosbags' generated code can raise any error on broken bytes
             raise MisfitError(f"it does not fit the type {channel.schema_name}") from error
 
@@ -146,20 +145,22 @@ class Decoder:
                 self._file.leave_out(channel, short)
             self._stamps[channel.id] = _stamps(starts[whole])
 
-    def _store(self, channel: ChannelInfo) -> Typestore:
-        """Types of a channel's schema; files may define a type differently for each channel."""
-        key = channel.schema_name, channel.schema_data
-        with self._lock:
-            if key not in self._stores:
-                text = channel.schema_data.decode("utf-8")
-                if channel.schema_encoding == "ros2idl":
-                    types = get_types_from_idl(text)
-                else:
-                    types = get_types_from_msg(text, channel.schema_name)
-                store = get_typestore(Stores.EMPTY)
-                store.register(types)
-                self._stores[key] = store
-            return self._stores[key]
+
+@lru_cache(maxsize=_STORES)
+def _store(schema_name: str, encoding: str, schema: bytes) -> Typestore:
+    """Types of a schema with all that it uses; each channel may define a type in its own way."""
+    text = schema.decode("utf-8")
+    if encoding == "ros2idl":
+        types = get_types_from_idl(text)
+    else:
+        types = get_types_from_msg(text, schema_name)
+    store = get_typestore(Stores.EMPTY)
+    store.register(types)
+    return store
+
+
+def _store_of(channel: ChannelInfo) -> Typestore:
+    return _store(channel.schema_name, channel.schema_encoding, channel.schema_data)
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)

@@ -96,6 +96,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     rig, robot = chosen.rig, chosen.robot
     decoder = Decoder(file)
     topics = topics_of(file, decoder)
+    damaged = [f"{t.name} is not used: {t.why_not}." for t in topics if t.damaged]
     provenance = provenance_of(file)
     own_rig, about_rig = rig_of(file) if provenance is not None else (None, [])
     if rig is not None and provenance is not None:
@@ -103,7 +104,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
         rig = replace(rig, model=rig.model.of_depth_images())
     found = recorded_sensors(topics, decoder, rig, own_rig)
     if not found:
-        raise RecordingError(_nothing_to_estimate_from(file, topics))
+        raise RecordingError(" ".join([_nothing_to_estimate_from(file, topics), *damaged]))
     if rig is not None:
         _check_rig(file, rig, found)
     if not decoder.has_stamp_index:
@@ -111,8 +112,9 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, decoder, table.stamps)
-    warnings += [f"{t.name} is not used: {t.why_not}." for t in topics if t.damaged]
-    warnings += about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
+    warnings += (
+        damaged + about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
+    )
 
     names = joint_names(topics, decoder)
     if robot is None:
@@ -138,7 +140,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
         warnings += unknown_joints(robot, positions, placed)
         robot_poses = RobotPoses(robot, positions, tree, fixed, in_tree)
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
-    warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig)
+    warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig, damaged)
 
     truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, chosen.truth_frame)
     warnings += more

@@ -62,6 +62,7 @@ def unplaced_sensors(
     by_rig: list[Sensor | None],
     robot: Robot | None,
     rig: Rig | None,
+    damaged: list[str],
 ) -> list[str]:
     """Warnings about sensors without a pose, and about a rig that does not fit the topics.
 
@@ -73,6 +74,7 @@ def unplaced_sensors(
         by_rig: for each, the sensor of the chosen or default rig with its extrinsics, None without.
         robot: that carries the rig, None without.
         rig: the user's choice, None without.
+        damaged: sentences about topics that could have placed them.
 
     Raises:
         RecordingError: no sensor has a pose.
@@ -87,7 +89,7 @@ def unplaced_sensors(
         raise RecordingError(
             f"{file.path}: no sensor can be placed in {fixed}; neither /tf nor a rig places "
             f"{few(unplaced)}. Give a rig whose sensors are named like the topics, or another "
-            f"fixed frame."
+            f"fixed frame. {' '.join(damaged)}".strip()
         )
     warnings: list[str] = []
     if unplaced:

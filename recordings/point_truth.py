@@ -144,6 +144,8 @@ class PointTruths:
             return None
         try:
             table = truth_fields(cloud)
+            if missing := sorted(TRUTH_FIELDS - set(table)):
+                raise MisfitError(f"it lacks {', '.join(missing)}")
         except MisfitError as error:
             self._decoder.left_out.add(self._topic.name, index, str(error))
             return None
@@ -156,11 +158,9 @@ def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor
     Floats beyond `FARTHEST` are NaN; numbers that are none are -1.
 
     Raises:
-        MisfitError: the cloud lacks a field, or has too few bytes for its size, or fields that do not fit.
+        MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
     table = {name: values.astype(np.float64) for name, values in fields_of(cloud).items()}
-    if missing := sorted(TRUTH_FIELDS - set(table)):
-        raise MisfitError(f"it lacks {', '.join(missing)}, which the truth of points needs")
     near = {name: np.abs(values) <= FARTHEST for name, values in table.items()}
     return {
         name: np.where(near[name], values, np.nan)

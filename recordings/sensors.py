@@ -110,11 +110,21 @@ def rig_sensors(topics: list[Topic], rig: Rig) -> list[RigSensor | None]:
 def unfit_intrinsics(
     found: list[tuple[Topic, RecordedSensor, RigSensor | None]], topics: list[Topic]
 ) -> list[str]:
-    """Warnings about sensors without a rig whose CameraInfo is for images of another size."""
+    """Warnings about sensors without a rig whose CameraInfo does not fit them."""
     warnings: list[str] = []
     candidates = _Infos(topics)
+    unusable = {
+        parent(t.name): t
+        for t in topics
+        if t.use is Use.NOTHING and t.channel.schema_name.endswith("/CameraInfo")
+    }
     for topic in [topic for topic, _, in_rig in found if in_rig is None]:
         infos = candidates.of(topic)
+        if not infos and (info := unusable.get(parent(topic.name))):
+            warnings.append(
+                f"{info.name} is not used: {info.why_not}; a field of view of 45 degrees is "
+                "assumed."
+            )
         if infos and all(info.grid != topic.grid for info in infos):
             warnings.append(
                 f"{infos[0].name} is for images of {size_text(_grid(infos[0]))} zones and those of "

@@ -35,32 +35,31 @@ def main() -> int:
     resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, _MOST_MEMORY))
     signal.signal(signal.SIGPROF, _interrupt)
     counts: collections.Counter[str] = collections.Counter()
-    slowest, began = 0.0, time.monotonic()
+    slowest, largest, began = 0.0, 0, time.monotonic()
     with TemporaryDirectory() as folder:
         for path in _files(Path(folder), options):
             outcome = _bounded(path)
             kind = "fault" if outcome.faults else "refused" if outcome.refusal else "opened"
             counts[kind] += 1
-            slowest = max(slowest, outcome.seconds)
+            slowest, largest = max(slowest, outcome.seconds), max(largest, outcome.memory)
             if outcome.faults:
                 print(f"{path.name}: {'; '.join(outcome.faults)}", flush=True)
                 options.keep.mkdir(exist_ok=True)
                 (options.keep / path.name).write_bytes(path.read_bytes())
             if path.parent == Path(folder):
                 path.unlink()
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
     print(
         f"{counts.total()} files in {time.monotonic() - began:.0f} s: {counts['opened']} opened, "
         f"{counts['refused']} refused in a sentence, {counts['fault']} with faults; slowest "
-        f"{slowest:.1f} s of CPU, largest memory {peak:.0f} MB"
+        f"{slowest:.1f} s of CPU, largest memory {largest / 1e6:.0f} MB"
     )
     return 1 if counts["fault"] else 0
 
 
 def _files(folder: Path, options: argparse.Namespace) -> Iterator[Path]:
     yield from options.files
-    for name, write in HANDMADE.items():
-        yield write(folder / f"{name}.mcap")
+    for name, handmade in HANDMADE.items():
+        yield handmade.write(folder / f"{name}.mcap")
     good = list(seeds().items())
     for number in range(options.count):
         name, content = good[number % len(good)]
@@ -74,7 +73,7 @@ def _bounded(path: Path) -> Outcome:
     try:
         return tried(path)
     except TimeoutError:
-        return Outcome("", (f"it was interrupted after {_HANGS:g} s of CPU",), _HANGS)
+        return Outcome("", (), (f"it was interrupted after {_HANGS:g} s of CPU",), _HANGS, 0)
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
 

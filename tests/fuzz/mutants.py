@@ -57,7 +57,7 @@ def _numbers_in_records(content: bytes, rng: np.random.Generator) -> bytes:
     return bytes(changed)
 
 
-def _parts(change: Callable[[Container, np.random.Generator], Container]):  # noqa: ANN202
+def _parts(change: Callable[[Container, np.random.Generator], Container]):
     def changed(content: bytes, rng: np.random.Generator) -> bytes:
         try:
             container = read(content)

@@ -49,9 +49,9 @@ def arm(path: Path, description: str = ARM) -> Path:
         file.add("/tf", "tf2_msgs/msg/TFMessage", tf, stamp)
         state = joint_state(stamp, {"joint1": 0.1 * k})
         file.add("/joint_states", "sensor_msgs/msg/JointState", state, stamp)
-        velocity = twist(stamp, "base", np.array([0.0, 0.0, -0.15]))
+        velocity = twist(stamp, "hand", np.array([0.0, 0.0, -0.15]))
         file.add("/target/velocity", "geometry_msgs/msg/TwistStamped", velocity, stamp)
-        place = pose(stamp, "base", at(z=1.6 - 0.01 * k))
+        place = pose(stamp, "hand", at(z=1.6 - 0.01 * k))
         file.add("/target/pose", "geometry_msgs/msg/PoseStamped", place, stamp)
     return file.write(path)
 

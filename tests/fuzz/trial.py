@@ -4,7 +4,6 @@ import contextlib
 import io
 import json
 import logging
-import resource
 import time
 import traceback
 import warnings
@@ -18,6 +17,7 @@ from app.errors import UserError
 from recordings import Recording, open_recording
 from recordings.info import file_info
 from tests.fuzz.limits import CPU_SECONDS, MEMORY_BYTES
+from tests.fuzz.memory import forget_peak, peak_bytes
 
 
 @dataclass(frozen=True)
@@ -26,32 +26,37 @@ class Outcome:
 
     Attributes:
         refusal: sentence that the file was refused with, "" where it was opened.
+        told: sentences about it where it was opened.
         faults: what must not happen, one line each.
         seconds: of CPU time.
+        memory: largest of the process, bytes.
     """
 
     refusal: str
+    told: tuple[str, ...]
     faults: tuple[str, ...]
     seconds: float
+    memory: int
 
 
 def tried(path: Path) -> Outcome:
     """Open a file, read what there is to read of it, and tell about it."""
     faults: list[str] = []
+    sentences: list[str] = []
+    forget_peak()
     began = time.process_time()
     with _told(faults):
-        refusal = _refused(lambda: _opened(path), faults)
+        refusal = _refused(lambda: _opened(path, sentences), faults)
         _refused(lambda: _informed(path), faults)
     seconds = time.process_time() - began
     if seconds > CPU_SECONDS:
         faults.append(f"it took {seconds:.1f} s of CPU")
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
-    if peak > MEMORY_BYTES:
+    if (peak := peak_bytes()) > MEMORY_BYTES:
         faults.append(f"the process has {peak / 1e6:.0f} MB")
-    return Outcome(refusal, tuple(faults), seconds)
+    return Outcome(refusal, tuple(sentences), tuple(faults), seconds, peak)
 
 
-def _opened(path: Path) -> None:
+def _opened(path: Path, told: list[str]) -> None:
     with open_recording(path) as recording:
         last = len(recording) - 1
         for k in sorted({0, last // 2, last}):
@@ -59,7 +64,8 @@ def _opened(path: Path) -> None:
         recording.pair_truth(0, last) if last else None
         if recording.robot is not None:
             _ = recording.robot.visual_meshes
-        for sentence in notes(recording):
+        told += notes(recording)
+        for sentence in told:
             _check_sentence(sentence)
         summary = info._described(recording)
         json.dumps(summary)
