@@ -1,16 +1,20 @@
 """Signals that end a command: Ctrl-C and SIGTERM."""
 
+import logging
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 STOPPED = 130
 """Exit code of a command that a signal ends."""
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
+_OURS = ("app", "estimator", "recordings", "robot_assets")
 _Handler = Callable[[int, FrameType | None], object] | signal.Handlers
 
 
@@ -27,15 +31,38 @@ def ending_at_once() -> Iterator[None]:
 
 @contextmanager
 def raising_keyboard_interrupt() -> Iterator[None]:
-    """Context in which SIGTERM raises KeyboardInterrupt, as Ctrl-C does: work is cleaned up."""
+    """Context in which SIGTERM raises KeyboardInterrupt, as Ctrl-C does: work is cleaned up.
 
-    def stop(*_: object) -> None:
+    Where a library catches it, as trimesh does, or makes another error of it, as Open3D does while
+    it is imported, it is raised again in our own code.
+    """
+
+    def stop(_: int, frame: FrameType | None) -> None:
         for number in _ENDING:
             signal.signal(number, signal.SIG_IGN)  # a second one must not interrupt the cleanup
+        # What libraries say of the interruption is of no use.
+        logging.disable()
+        sys.unraisablehook = lambda _: None
+        _raise_again_in(frame)
         raise KeyboardInterrupt
 
     with handled(stop):
         yield
+
+
+def _raise_again_in(frame: FrameType | None) -> None:
+    """Trace our functions below a frame, so that what a library catches reaches them too."""
+
+    def traced(ours: FrameType, event: str, details: Any) -> None:  # noqa: ANN401 (of the event)
+        if event != "exception" or not issubclass(details[0], KeyboardInterrupt):
+            raise KeyboardInterrupt
+        ours.f_trace = None
+
+    while frame is not None:
+        if str(frame.f_globals.get("__name__")).partition(".")[0] in _OURS:
+            frame.f_trace = traced
+        frame = frame.f_back
+    sys.settrace(lambda *_: None)
 
 
 @contextmanager

@@ -16,7 +16,8 @@ _ABANDONED = 3600.0
 def write(path: Path, content: bytes) -> None:
     """Write a file beside its place and rename it, so that a failure leaves what was there.
 
-    Drafts that killed processes left in the folder are removed. A link is followed. Devices and pipes, such as /dev/stdout, are written to as they are.
+    Drafts that killed processes left in the folder are removed. A link is followed. Devices and
+    pipes, such as /dev/stdout, are written to as they are.
 
     Raises:
         InputError: it cannot be written.

@@ -1,14 +1,17 @@
 """Signals and broken outputs end a command quietly, from the first moment."""
 
+import logging
 import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from app.commands.signals import raising_keyboard_interrupt
 from recordings import sample_paths
 from tests.conftest import REPOSITORY
 
@@ -71,3 +74,47 @@ def test_a_pipe_that_nothing_reads_and_a_closed_output_are_silent(tmp_path: Path
     shell = ["sh", "-c", 'exec "$@" >&-', "sh", *closed]
     done = subprocess.run(shell, cwd=REPOSITORY, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+_LIBRARY = """
+import os
+def disturbed(number):
+    try:
+        os.kill(os.getpid(), number)
+        for _ in range(10):
+            pass
+    except BaseException as error:
+        {then}
+"""
+_WORKING = """
+def work(number, done):
+    try:
+        disturbed(number)
+        done.append("more work")
+    except Exception:
+        done.append("an error of another kind")
+    finally:
+        done.append("cleaned")
+        done.append("up")
+"""
+
+
+@pytest.mark.parametrize("then", ["pass", "raise ImportError from error"])
+@NUMBERS
+def test_a_library_that_catches_everything_does_not_keep_a_command_from_ending(
+    number: int, then: str
+):
+    library: dict[str, Any] = {"__name__": "some_library"}
+    exec(_LIBRARY.format(then=then), library)
+    ours: dict[str, Any] = {"__name__": "app.working", "disturbed": library["disturbed"]}
+    exec(_WORKING, ours)
+    done: list[str] = []
+    hook = sys.unraisablehook
+    try:
+        with pytest.raises(KeyboardInterrupt), raising_keyboard_interrupt():
+            ours["work"](number, done)
+    finally:
+        sys.settrace(None)
+        sys.unraisablehook = hook
+        logging.disable(logging.NOTSET)
+    assert done == ["cleaned", "up"]
