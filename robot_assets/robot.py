@@ -15,10 +15,12 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
+from robot_assets.input_files import open_file
 from robot_assets.joint_match import JointMatch, match_joints
 from robot_assets.meshes import link_meshes, panda_urdf_path, resolve_mesh
 
 Transform = NDArray[np.float64]
+_LARGEST = 20_000_000  # bytes of a URDF file; the largest of robots have a few
 _ROTARY = ("revolute", "continuous")
 
 
@@ -187,13 +189,24 @@ def load_robot(source: str | Path | None = None) -> Robot:
     else:
         path = panda_urdf_path() if source is None else Path(source)
         where, folder = str(path), path.parent
-        try:
-            text = path.read_text(encoding="utf-8")
-        except OSError as error:
-            raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
-        except UnicodeDecodeError as error:
-            raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
+        text = _read(path)
     return _robot(text, where, folder)
+
+
+def _read(path: Path) -> str:
+    try:
+        with open_file(path) as file:
+            content = file.read(_LARGEST + 1)
+    except OSError as error:
+        raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
+    if len(content) > _LARGEST:
+        raise RobotError(
+            f"{path} has more than {_LARGEST // 1_000_000} MB, too much for a URDF; check the name."
+        )
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
 
 
 @lru_cache(maxsize=16)

@@ -1,6 +1,8 @@
-"""Signals that end a command: Ctrl-C and SIGTERM."""
+"""Signals that end a command: Ctrl-C and SIGTERM.
 
-import logging
+It imports little, since until it is imported a signal ends in a traceback.
+"""
+
 import os
 import signal
 import sys
@@ -8,7 +10,6 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
 
 STOPPED = 130
 """Exit code of a command that a signal ends."""
@@ -41,6 +42,8 @@ def raising_keyboard_interrupt() -> Iterator[None]:
         for number in _ENDING:
             signal.signal(number, signal.SIG_IGN)  # a second one must not interrupt the cleanup
         # What libraries say of the interruption is of no use.
+        import logging
+
         logging.disable()
         sys.unraisablehook = lambda _: None
         _raise_again_in(frame)
@@ -53,8 +56,9 @@ def raising_keyboard_interrupt() -> Iterator[None]:
 def _raise_again_in(frame: FrameType | None) -> None:
     """Trace our functions below a frame, so that what a library catches reaches them too."""
 
-    def traced(ours: FrameType, event: str, details: Any) -> None:  # noqa: ANN401 (of the event)
-        if event != "exception" or not issubclass(details[0], KeyboardInterrupt):
+    def traced(ours: FrameType, event: str, details: object) -> None:
+        kind = details[0] if isinstance(details, tuple) else None
+        if event != "exception" or not issubclass(kind or Exception, KeyboardInterrupt):
             raise KeyboardInterrupt
         ours.f_trace = None
 
