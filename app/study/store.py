@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -124,7 +125,8 @@ class Store:
 
     def _path(self, source: Source) -> Path:
         # The digest identifies the recording; its name, possibly cut, helps readers.
-        name = os.fsencode(source.name)[:_LONGEST_NAME].decode(errors="ignore")
+        encoding = sys.getfilesystemencoding()
+        name = os.fsencode(source.name)[:_LONGEST_NAME].decode(encoding, errors="ignore")
         return self._folder / f"{name}-{self.digest(source)[:16]}.json"
 
     def _content(self, path: Path | None) -> str | None:
