@@ -3,12 +3,13 @@
 It imports little, since until it is imported a signal ends in a traceback.
 """
 
+import atexit
 import os
 import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
 STOPPED = 130
@@ -81,6 +82,18 @@ def handled(handler: _Handler) -> Iterator[None]:
     finally:
         for number, former in before.items():
             signal.signal(number, former)
+
+
+def end() -> None:
+    """End a stopped process, after Python's clean-up and without that of C libraries.
+
+    One whose import was interrupted may set another exit code in it.
+    """
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(AttributeError, OSError, ValueError):  # it may be closed, or none
+            stream.flush()
+    os._exit(STOPPED)
 
 
 def ignore() -> None:

@@ -73,8 +73,8 @@ def stop_after_the_first(
 ) -> dict[Path, int]:
     """Start a study, stop it once a result is kept, and return what is kept in the end."""
     process = study.start()
-    until(lambda: list(study.scratch.glob("tofscope-scratch-*")))
-    until(study.kept)
+    until(lambda: list(study.scratch.glob("tofscope-scratch-*")), 30)
+    until(study.kept, 30)
     stop(process)
     _, said = process.communicate(timeout=10)
     assert process.returncode == 130
