@@ -118,3 +118,22 @@ def test_a_library_that_catches_everything_does_not_keep_a_command_from_ending(
         sys.unraisablehook = hook
         logging.disable(logging.NOTSET)
     assert done == ["cleaned", "up"]
+
+
+_FAILING_AT_ITS_END = """
+import ctypes, sys
+libc = ctypes.CDLL(None)
+libc.__cxa_atexit(ctypes.cast(libc._exit, ctypes.c_void_p), ctypes.c_void_p(1), None)
+from app.commands import running
+def run(_):
+    raise KeyboardInterrupt
+running.run = run
+from app.command_line import main
+sys.exit(main())
+"""
+
+
+def test_a_c_library_that_fails_at_the_end_does_not_change_the_exit_code():
+    command = [sys.executable, "-c", _FAILING_AT_ITS_END]
+    ended = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (130, "")
