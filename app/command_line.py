@@ -23,6 +23,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     finally:
         if arguments is None:
             signals.ignore()
-    if code == signals.STOPPED and arguments is None:
-        signals.end()
+    if arguments is None and signals.came():
+        signals.end(code)
     return code

@@ -119,4 +119,5 @@ def _labels(files: Sequence[Path]) -> list[str]:
             longer(path) if count[label] > 1 else label
             for path, label in zip(files, labels, strict=True)
         ]
-    return labels
+    # Browsers get UTF-8: bytes of a name that are no text become escapes.
+    return [label.encode("utf-8", "backslashreplace").decode("utf-8") for label in labels]

@@ -17,7 +17,8 @@ STOPPED = 130
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
 _OURS = ("app", "estimator", "recordings", "robot_assets")
-_Handler = Callable[[int, FrameType | None], object] | signal.Handlers
+_Handler = Callable[[int, FrameType | None], object]
+_came = threading.Event()
 
 
 @contextmanager
@@ -76,7 +77,12 @@ def handled(handler: _Handler) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.signal(number, handler) for number in _ENDING}
+
+    def noted(number: int, frame: FrameType | None) -> None:
+        _came.set()
+        handler(number, frame)
+
+    before = {number: signal.signal(number, noted) for number in _ENDING}
     try:
         yield
     finally:
@@ -84,16 +90,22 @@ def handled(handler: _Handler) -> Iterator[None]:
             signal.signal(number, former)
 
 
-def end() -> None:
+def came() -> bool:
+    """Whether a signal has ended the command."""
+    return _came.is_set()
+
+
+def end(code: int) -> None:
     """End a stopped process, after Python's clean-up and without that of C libraries.
 
-    One whose import was interrupted may set another exit code in it.
+    One whose import was interrupted may set another exit code in it, and one that still computes
+    in a thread aborts.
     """
     atexit._run_exitfuncs()
     for stream in (sys.stdout, sys.stderr):
         with suppress(AttributeError, OSError, ValueError):  # it may be closed, or none
             stream.flush()
-    os._exit(STOPPED)
+    os._exit(code)
 
 
 def ignore() -> None:

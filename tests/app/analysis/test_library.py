@@ -48,6 +48,13 @@ def test_equal_names_get_their_folder_or_else_their_path(tmp_path):
     assert labels == [str(first / "a.mcap"), str(second / "a.mcap"), "y/a.mcap", "c"]
 
 
+def test_a_name_that_is_no_text_has_a_label_that_a_browser_can_be_sent(tmp_path):
+    path = tmp_path / "a\udcff.mcap"
+    path.touch()
+    (entry,) = Library([tmp_path], Opener()).listing()
+    assert entry == Entry(r"a\udcff", path)
+
+
 def test_new_files_appear_in_the_next_listing(tmp_path):
     library = Library([touched(tmp_path / "f")], Opener())
     assert library.listing() == ()

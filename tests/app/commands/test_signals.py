@@ -13,6 +13,8 @@ import pytest
 
 from app.commands.signals import raising_keyboard_interrupt
 from recordings import sample_paths
+from tests.app.waiting import until
+from tests.app.wire_client import WireClient
 from tests.conftest import REPOSITORY
 
 SAMPLE = str(sample_paths()[0])
@@ -76,6 +78,18 @@ def test_a_pipe_that_nothing_reads_and_a_closed_output_are_silent(tmp_path: Path
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@NUMBERS
+def test_a_server_that_computes_for_a_client_ends_well(number: int, tmp_path: Path):
+    process = started("view", SAMPLE, "--port", "0", folder=tmp_path, stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    address = process.stdout.readline().split()[-1]
+    with WireClient(address, lambda *_: None) as client:
+        until(lambda: client.has("Frame"), 60)
+        process.send_signal(number)
+        _, said = process.communicate(timeout=20)
+    assert (process.returncode, said) == (0, "")
+
+
 _LIBRARY = """
 import os
 def disturbed(number):
@@ -121,12 +135,12 @@ def test_a_library_that_catches_everything_does_not_keep_a_command_from_ending(
 
 
 _FAILING_AT_ITS_END = """
-import ctypes, sys
+import ctypes, os, sys
 libc = ctypes.CDLL(None)
 libc.__cxa_atexit(ctypes.cast(libc._exit, ctypes.c_void_p), ctypes.c_void_p(1), None)
 from app.commands import running
 def run(_):
-    raise KeyboardInterrupt
+    os.kill(os.getpid(), 15)
 running.run = run
 from app.command_line import main
 sys.exit(main())
