@@ -17,6 +17,7 @@ from app.output.scratch import scratch_folder
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _TIMEOUT = 60.0  # seconds until Chromium must have started, on a busy machine
+_ENDING = 1.0  # seconds from the end of its pipe to that of the process
 _FLAGS = (
     "--headless",
     # It ends when the pipe is closed, which happens however this process ends.
@@ -71,10 +72,7 @@ def headless_page(address: str, width: int, height: int) -> Iterator[None]:
     """
     path = _find()
     with scratch_folder() as folder, _started(path, folder) as devtools:
-        try:
-            _open(devtools, address, width, height)
-        except DevToolsError as error:
-            raise InputError(f"Chromium at {path} does not start ({error}).") from error
+        _open(devtools, address, width, height)
         yield
 
 
@@ -104,8 +102,14 @@ def _started(path: str, folder: Path) -> Iterator[DevTools]:
     with DevTools(ours, theirs) as devtools, ThreadPoolExecutor(1) as thread:
         starting = thread.submit(start)
         try:
-            starting.result()
-            yield devtools
+            process = starting.result()
+            try:
+                yield devtools
+            except DevToolsError as error:
+                reason = str(error)
+                with suppress(subprocess.TimeoutExpired):
+                    reason += f", with the exit code {process.wait(_ENDING)}"
+                raise InputError(f"Chromium at {path} does not start ({reason}).") from error
         finally:
             process = starting.result()
             with suppress(ProcessLookupError):
