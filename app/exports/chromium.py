@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -18,6 +19,8 @@ from app.output.scratch import scratch_folder
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _TIMEOUT = 60.0  # seconds until Chromium must have started, on a busy machine
 _ENDING = 1.0  # seconds from the end of its pipe to that of the process
+_LONGEST = 30
+"""Bytes of a path in which Chromium can make sockets, whose paths have 104: else it aborts."""
 _FLAGS = (
     "--headless",
     # It ends when the pipe is closed, which happens however this process ends.
@@ -71,9 +74,15 @@ def headless_page(address: str, width: int, height: int) -> Iterator[None]:
         InputError: Chromium is missing or does not start.
     """
     path = _find()
-    with scratch_folder() as folder, _started(path, folder) as devtools:
+    with scratch_folder(_place()) as folder, _started(path, folder) as devtools:
         _open(devtools, address, width, height)
         yield
+
+
+def _place() -> Path:
+    """Folder for Chromium's own: the system's for temporary files, or /tmp where it is too long."""
+    usual = Path(tempfile.gettempdir())
+    return usual if len(os.fsencode(usual)) <= _LONGEST else Path("/tmp")
 
 
 @contextmanager

@@ -206,7 +206,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     moments, wrong = random.Random(options.seed), False
-    with adopting(), tempfile.TemporaryDirectory(prefix="tofscope-signals-") as scratch:
+    with adopting(), tempfile.TemporaryDirectory(dir="/tmp") as scratch:
         for name in options.commands or _COMMANDS:
             folder = Path(scratch) / name
             folder.mkdir()
@@ -215,7 +215,7 @@ def main() -> None:
                 found = Found()
                 for number in range(options.runs):
                     moment = moments.uniform(0, _EARLY if number % 4 == 0 else whole)
-                    own = Path(scratch) / f"{name}-{way}-{number}"
+                    own = Path(scratch) / f"{len(os.listdir(scratch))}"  # short, for Chromium
                     own.mkdir()
                     stopped(name, way, moment, own, found)
                 codes = ", ".join(f"{n} x {code}" for code, n in sorted(found.codes.items()))
