@@ -17,9 +17,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from app.commands.running import run
     try:
         with signals.raising_keyboard_interrupt():
-            return run(given)
+            code = run(given)
     except KeyboardInterrupt:
-        return signals.STOPPED
+        code = signals.STOPPED
     finally:
         if arguments is None:
             signals.ignore()
+    if arguments is None and signals.came():
+        signals.end(code)
+    return code

@@ -32,6 +32,7 @@ from recordings.mcap_contents import (
     merged_channels,
     record_name,
 )
+from robot_assets.input_files import open_file
 
 MAGIC = b"\x89MCAP0\r\n"
 _OTHER_MAGIC = {
@@ -319,7 +320,7 @@ def _opened(path: Path) -> IO[bytes]:
     if path.is_dir():
         raise RecordingError(f"{path} is a folder, and a recording is one .mcap file.")
     try:
-        stream = path.open("rb")
+        stream = open_file(path)
         head = stream.read(16)
     except OSError as error:
         raise RecordingError(f"{path} cannot be read: {error.strerror}.") from error

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from robot_assets.input_files import open_file
 from robot_assets.rig_file import RigFile, RingTable, SensorModelTable, SingleTable
 from robot_assets.rig_problems import problems
 from robot_assets.sensor_model import SensorModel, unit
@@ -71,7 +72,7 @@ def load_rig(path: str | Path | None = None) -> Rig:
     """
     where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
     try:
-        with where.open("rb") as file:
+        with open_file(where) as file:
             content = file.read(_LARGEST + 1)
     except OSError as error:
         raise RigError(f"{where} cannot be read as a rig file: {error.strerror}.") from error
@@ -89,9 +90,17 @@ def parse_rig(content: bytes, where: str) -> Rig:
         RigError: as in `load_rig`.
     """
     try:
-        table = tomllib.loads(content.decode("utf-8"))
-    except (ValueError, RecursionError) as error:  # ValueError: also a number of too many digits
+        table = tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise RigError(f"{where} is not a text file, so it cannot be a rig file.") from error
+    except tomllib.TOMLDecodeError as error:
         raise RigError(f"{where} is not a TOML file: {error}.") from error
+    except RecursionError as error:
+        raise RigError(f"{where} has too deeply nested lists or tables.") from error
+    except ValueError as error:  # Python reads no more than 4300 digits
+        raise RigError(
+            f"{where} holds a number of thousands of digits; give a smaller one."
+        ) from error
     try:
         return _rig(RigFile.model_validate(table))
     except ValidationError as error:

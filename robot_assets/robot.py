@@ -14,6 +14,7 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
+from robot_assets.input_files import open_file
 from robot_assets.joint_match import JointMatch, match_joints
 from robot_assets.kinematics import ROTARY, Kinematics
 from robot_assets.mesh_files import MeshPlaces, panda_urdf_path
@@ -23,7 +24,7 @@ Transform = NDArray[np.float64]
 MOST_LINKS = 20_000
 """Links of a robot; a description with more is refused."""
 _LARGEST = 16 * 2**20
-"""Bytes of a description."""
+"""Bytes of a description; the largest of robots have a few MB."""
 _FARTHEST = 1e5
 """Metres from the base that a link at rest may be."""
 
@@ -190,13 +191,23 @@ def load_robot(source: str | Path | None = None, mesh_folders: Sequence[str | Pa
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return _robot(source, "The robot description", MeshPlaces(folders))
     path = panda_urdf_path() if source is None else Path(source)
+    return _robot(_read(path), str(path), MeshPlaces(folders, path.parent))
+
+
+def _read(path: Path) -> str:
     try:
-        text = path.read_text(encoding="utf-8")
+        with open_file(path) as file:
+            content = file.read(_LARGEST + 1)
     except OSError as error:
         raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
+    if len(content) > _LARGEST:
+        raise RobotError(
+            f"{path} has more than {_LARGEST} bytes, too many for a URDF; check the name."
+        )
+    try:
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
-    return _robot(text, str(path), MeshPlaces(folders, path.parent))
 
 
 @lru_cache(maxsize=16)

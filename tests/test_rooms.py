@@ -26,7 +26,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "app.scene": {"app.browser", "app.analysis", *LOWER},
     "app.session": {"app.scene", "app.analysis", "app.output", *LOWER},
     "app.exports": {"app.output", *SHOWN, *LOWER},
-    "app.panels": {"app.session", "app.exports", *SHOWN, *LOWER},
+    "app.panels": {"app.session", "app.exports", "app.output", *SHOWN, *LOWER},
     "app.server": {"app.panels", "app.session", *SHOWN, *LOWER},
     "app.commands": {
         *("app.server", "app.panels", "app.session", "app.exports", "app.study"),

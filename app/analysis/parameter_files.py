@@ -10,6 +10,7 @@ from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 from app.analysis.json_text import LARGEST, check_size, from_json, kind_of
 from app.errors import InputError
 from estimator import ParameterError, Parameters, from_nested, to_nested
+from robot_assets.input_files import open_file
 
 _Name = Annotated[str, Field(max_length=100)]
 _Value = bool | int | float | Annotated[str, Field(max_length=1000)] | None
@@ -74,10 +75,10 @@ def load(path: Path) -> Parameters:
         InputError: the file cannot be read, or `from_text` says what is wrong with it.
     """
     try:
-        with path.open("rb") as file:
+        with open_file(path) as file:
             content = file.read(LARGEST + 1)
         check_size(len(content), str(path))
-        text = content.decode("utf-8")
+        text = content.decode("utf-8-sig")
     except FileNotFoundError as error:
         raise InputError(f"There is no file {path}; check the spelling.") from error
     except OSError as error:

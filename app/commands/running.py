@@ -1,6 +1,7 @@
 """Running of a subcommand: parser, log, and errors in one sentence."""
 
 import argparse
+import io
 import logging
 import os
 import sys
@@ -29,8 +30,19 @@ class _Parser(argparse.ArgumentParser):
         raise SystemExit(2)
 
 
+class LogFormatter(logging.Formatter):
+    """Format of log lines in which control characters are escapes: names come from files."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The lines of a record, a traceback's included."""
+        return "\n".join(map(printable, super().format(record).split("\n")))
+
+
 def run(arguments: Sequence[str]) -> int:
     """Run a subcommand with its arguments, and return its exit code."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # Whatever the language of the terminal is: what it does not have is an escape.
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         try:
             return _run(arguments)
@@ -102,6 +114,8 @@ def _parser() -> _Parser:
 
 def _set_up_log(level: str) -> None:
     """Log on standard error: our own messages from a level on, warnings of libraries."""
-    logging.basicConfig(format="%(asctime)s %(levelname)s %(name)s: %(message)s", stream=sys.stderr)
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(LogFormatter("%(asctime)s %(levelname)s %(name)s: %(message)s"))
+    logging.basicConfig(handlers=[handler])
     for package in _OURS:
         logging.getLogger(package).setLevel(level.upper())

@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
             show(for_terminal(table))
             print()
     if caveat := truth_frame_text(plan).strip():
-        print(caveat)
+        print(printable(caveat))
     making = sum(outcome.seconds for outcome in finished)
     estimating = sum(result.seconds for outcome in finished for result in outcome.results)
     print(
@@ -126,7 +126,7 @@ def run(options: argparse.Namespace) -> int:
         f"{duration(making)}, estimating {duration(estimating)} of one core, earlier runs "
         f"included), {duration(monotonic() - estimated)} for tables and figure."
     )
-    print(f"Read first: {options.out / PAGE}")
+    print(printable(f"Read first: {options.out / PAGE}"))
     return 0
 
 

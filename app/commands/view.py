@@ -10,6 +10,7 @@ from pathlib import Path
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
 from app.commands.signals import ending_at_once, handled
+from app.terminal.printable import printable
 from recordings import sample_paths
 
 _LOOK_UP = 0.5  # seconds
@@ -78,8 +79,9 @@ def run(options: argparse.Namespace) -> int:
         server = Server(shared, options.host, options.port, options.embed_in)
         try:
             if not _is_loopback(options.host):
-                print(_warning(options.host, server.address_for_others), file=sys.stderr)
-            print(f"Tofscope is at {server.address}", flush=True)
+                said = _warning(options.host, server.address_for_others)
+                print(printable(said), file=sys.stderr)
+            print(printable(f"Tofscope is at {server.address}"), flush=True)
             warm_up()
             # A signal may reach a thread of some library: the main thread, which alone runs its
             # handler, is not woken by it and has to look up by itself.

@@ -2,10 +2,12 @@
 
 import csv
 import io
+import re
 
 import numpy as np
 
 from app.analysis.survey import Survey
+from app.output.text import csv_cell, encodable
 from estimator import METRIC_INFO, to_nested
 from recordings import Recording
 
@@ -30,7 +32,8 @@ def to_csv(recording: Recording, survey: Survey) -> str:
     text.write(f"# {_heading(recording, survey)}\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["frame", *columns])
-    writer.writerows(zip(range(len(survey)), *columns.values(), strict=True))
+    rows = zip(range(len(survey)), *columns.values(), strict=True)
+    writer.writerows(map(csv_cell, row) for row in rows)
     return text.getvalue()
 
 
@@ -39,7 +42,8 @@ def _heading(recording: Recording, survey: Survey) -> str:
         f"{name}={value}" for name, value in to_nested(survey.parameters).items()
     )
     origin = "simulated" if recording.simulated else "measured"
-    name = " ".join(recording.path.name.split())  # a line break in it would end the comment
+    # A line break would end the comment, and what separates cells would let one begin in the name.
+    name = " ".join(re.split(r'[\s,;"]+', encodable(recording.path.name)))
     heading = f"Tofscope; recording {name}; {origin}; {parameters}"
     if not survey.complete:
         heading += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"

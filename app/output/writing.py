@@ -2,16 +2,22 @@
 
 import contextlib
 import os
+import time
 from pathlib import Path
 from uuid import uuid4
 
 from app.errors import InputError
 
+_DRAFT = ".tofscope-{}.part"
+_ABANDONED = 3600.0
+"""Seconds after which a draft, which is written in a few, is that of a process that was killed."""
+
 
 def write(path: Path, content: bytes) -> None:
     """Write a file beside its place and rename it, so that a failure leaves what was there.
 
-    A link is followed. Devices and pipes, such as /dev/stdout, are written to as they are.
+    Drafts that killed processes left in the folder are removed. A link is followed. Devices and
+    pipes, such as /dev/stdout, are written to as they are.
 
     Raises:
         InputError: it cannot be written.
@@ -26,8 +32,9 @@ def write(path: Path, content: bytes) -> None:
 
 
 def _replace(path: Path, content: bytes) -> None:
+    _remove_abandoned(path.parent)
     # A name of its own for every writer: two of them at once both succeed.
-    draft = path.with_name(f".tofscope-{uuid4().hex}.part")
+    draft = path.with_name(_DRAFT.format(uuid4().hex))
     try:
         with draft.open("xb") as stream:
             stream.write(content)
@@ -41,3 +48,11 @@ def _replace(path: Path, content: bytes) -> None:
         with contextlib.suppress(OSError):
             draft.unlink(missing_ok=True)
         raise
+
+
+def _remove_abandoned(folder: Path) -> None:
+    latest = time.time() - _ABANDONED
+    for draft in folder.glob(_DRAFT.format("*")):
+        with contextlib.suppress(OSError):
+            if draft.stat().st_mtime < latest:
+                draft.unlink()

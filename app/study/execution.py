@@ -1,7 +1,10 @@
 """Execution of a study's work on local cores or on a Dask cluster."""
 
+import os
+import shutil
 import signal
-import tempfile
+import threading
+import time
 import warnings
 from collections.abc import Generator, Iterator
 from functools import partial
@@ -10,10 +13,12 @@ from typing import Any
 
 from app.analysis.method_files import load_method
 from app.errors import InputError
+from app.output.scratch import scratch_folder
 from app.study.software import software_digest
 from app.study.work import Outcome, Work, run_work
 
 _PATIENCE = 10  # seconds, timeout of the connection to a scheduler
+_LOOK_UP = 0.5  # seconds, after which a worker knows that the study was killed
 
 
 def outcomes(
@@ -35,19 +40,19 @@ def outcomes(
         yield from _on_dask(works, dask)
         return
     # A common folder, since workers that are stopped cannot delete their own.
-    with tempfile.TemporaryDirectory(prefix="tofscope-study-") as scratch:
+    with scratch_folder() as scratch:
         if jobs == 1 or len(works) < 2:
             for work in works:
-                yield run_work(work, software_digest(work.method_files), Path(scratch))
+                yield run_work(work, software_digest(work.method_files), scratch)
         else:
-            yield from _on_cores(works, min(jobs, len(works)), Path(scratch))
+            yield from _on_cores(works, min(jobs, len(works)), scratch)
 
 
 def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     from joblib import Parallel, delayed, parallel_config
 
     files = _method_files(works)
-    begin = partial(_begin_worker, files)
+    begin = partial(_begin_worker, files, os.getpid(), scratch)
     with parallel_config("loky", inner_max_num_threads=1, initializer=begin):
         done: Any = Parallel(n_jobs=jobs, return_as="generator_unordered")(
             delayed(run_work)(work, software_digest(files), scratch) for work in works
@@ -61,15 +66,24 @@ def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
             done.close()
 
 
-def _begin_worker(method_files: tuple[str, ...]) -> None:
-    """Initialise a worker process: load methods, and ignore Ctrl-C.
+def _begin_worker(method_files: tuple[str, ...], parent: int, scratch: Path) -> None:
+    """Initialise a worker process: load methods, ignore Ctrl-C, and end when the study is killed.
 
     Methods must be registered before their parameters are unpickled. A terminal sends Ctrl-C
     to all processes; the parent handles it.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(parent, scratch), daemon=True).start()
     for text in method_files:
         load_method(text)
+
+
+def _end_with(parent: int, scratch: Path) -> None:
+    """End this process once its parent has ended, which otherwise would wait for work for ever."""
+    while os.getppid() == parent:
+        time.sleep(_LOOK_UP)
+    shutil.rmtree(scratch, ignore_errors=True)
+    os._exit(1)
 
 
 def _method_files(works: list[Work]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from typing import Any
 from app.errors import InputError
 from app.output import checks
 from app.output.checks import is_ours
+from app.output.text import utf8
 from app.output.writing import write
 from app.study import page
 from app.study.ablation_findings import ablation_findings
@@ -110,15 +111,15 @@ def write_report(study: Study, folder: Path) -> list[Table]:
     files: dict[str, bytes] = {}
     for table in tables:
         files |= {
-            f"{_TABLES}/{table.name}.csv": as_csv(table).encode(),
-            f"{_TABLES}/{table.name}.md": as_markdown(table, caption).encode(),
+            f"{_TABLES}/{table.name}.csv": utf8(as_csv(table)),
+            f"{_TABLES}/{table.name}.md": utf8(as_markdown(table, caption)),
         }
         if len(table.rows) <= LONGEST:
-            files[f"{_TABLES}/{table.name}.tex"] = as_latex(table, caption).encode()
+            files[f"{_TABLES}/{table.name}.tex"] = utf8(as_latex(table, caption))
     content = json.dumps(_as_json(study, tables), indent=1)
     files[f"{_TABLES}/tables.json"] = f"{content}\n".encode()
     files |= {f"sweep.{ending}": content for ending, content in (figure or {}).items()}
-    files[PAGE] = _page(study, tables, figure).encode()
+    files[PAGE] = utf8(_page(study, tables, figure))
     try:
         (folder / _TABLES).mkdir(parents=True, exist_ok=True)
         # Files of an earlier study in this folder do not belong to this page.

@@ -3,15 +3,18 @@
 import hashlib
 import json
 import os
+import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 from app.analysis.evaluation import EvaluationCase
-from app.errors import InputError
+from app.analysis.json_text import LARGEST, from_json
+from app.errors import InputError, UserError
 from app.output.writing import write
 from app.study.work import Outcome, Recorded, Result, Source, Work
 from estimator import from_nested, to_nested
+from robot_assets.input_files import open_file
 
 _LONGEST_NAME = 80
 """Maximum bytes of a recording's name in its file name, of the 255 that file systems take."""
@@ -88,7 +91,9 @@ class Store:
         if source in self._unwritten:
             return self._unwritten[source]
         try:
-            content: dict[str, Any] = json.loads(self._path(source).read_text("utf-8"))
+            path = self._path(source)
+            with open_file(path) as file:
+                content = from_json(file.read(LARGEST + 1).decode("utf-8"), str(path))
             results = tuple(
                 Result(
                     EvaluationCase(from_nested(r["case"]["parameters"]), r["case"]["resting"]),
@@ -106,7 +111,7 @@ class Store:
                 results=results,
                 warnings=tuple(content["warnings"]),
             )
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, ValueError, KeyError, TypeError, *UserError):
             # A missing or invalid file: the results are computed again.
             return None
 
@@ -120,7 +125,8 @@ class Store:
 
     def _path(self, source: Source) -> Path:
         # The digest identifies the recording; its name, possibly cut, helps readers.
-        name = os.fsencode(source.name)[:_LONGEST_NAME].decode(errors="ignore")
+        encoding = sys.getfilesystemencoding()
+        name = os.fsencode(source.name)[:_LONGEST_NAME].decode(encoding, errors="ignore")
         return self._folder / f"{name}-{self.digest(source)[:16]}.json"
 
     def _content(self, path: Path | None) -> str | None:
@@ -134,7 +140,7 @@ class Store:
             found = path.stat()
             key = path, found.st_mtime_ns, found.st_size
             if key not in self._contents:
-                with path.open("rb") as file:
+                with open_file(path) as file:
                     self._contents[key] = hashlib.file_digest(file, "sha256").hexdigest()
             return self._contents[key]
         except OSError:

@@ -4,6 +4,7 @@ import csv
 import io
 from typing import TYPE_CHECKING
 
+from app.output.text import csv_cell
 from app.study.table import Column, Table, shown
 from app.terminal.tables import ColumnStyle, table_of
 
@@ -12,11 +13,11 @@ if TYPE_CHECKING:
 
 
 def as_csv(table: Table) -> str:
-    """Comma-separated, numbers in full, empty where undefined."""
+    """Comma-separated, numbers in full, empty where undefined; no text is a formula."""
     text = io.StringIO()
     writer = csv.DictWriter(text, [column.key for column in table.columns], lineterminator="\n")
     writer.writeheader()
-    writer.writerows(table.rows)
+    writer.writerows({key: csv_cell(row[key]) for key in row} for row in table.rows)
     return text.getvalue()
 
 

@@ -2,7 +2,6 @@
 
 import logging
 import math
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field, replace
@@ -14,6 +13,7 @@ from threadpoolctl import threadpool_limits
 from app.analysis.evaluation import Evaluation, EvaluationCase, evaluate_all
 from app.analysis.notes import notes
 from app.errors import UserError
+from app.output.scratch import scratch_folder
 from app.study.diagnosis import diagnose_missing_flow, diagnose_wrong_alignment
 from app.study.software import software_digest
 from estimator import Metrics, Parameters
@@ -186,8 +186,8 @@ def _opened(source: Source, scratch: Path | None) -> Iterator[tuple[Recording, f
         ) as recording:
             yield recording, thread_time() - begin
         return
-    with tempfile.TemporaryDirectory(prefix="tofscope-study-", dir=scratch) as folder:
-        path = Path(folder) / f"{source.name}.mcap"
+    with scratch_folder(scratch) as folder:
+        path = folder / f"{source.name}.mcap"
         write_simulation(
             path,
             SCENARIOS[source.scenario],

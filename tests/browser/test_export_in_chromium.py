@@ -1,6 +1,11 @@
 import json
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -9,9 +14,12 @@ from PIL import Image
 from playwright.sync_api import Browser, Page
 
 from app.command_line import main
+from app.output.scratch import scratch_folder
 from recordings import sample_paths
+from tests.app import waiting
 from tests.browser.conftest import NO_DRAWING
 from tests.browser.tab import Tab, until
+from tests.conftest import REPOSITORY
 from tests.recordings.room import write_room
 
 _NODES = """() => Object.entries(window.__viserSceneTree.getState())
@@ -33,9 +41,7 @@ def export(capfd: pytest.CaptureFixture[str]) -> Export:
     """`tofscope export` as a function of its arguments that returns what is printed."""
 
     def run(*arguments: object) -> str:
-        # In a thread of its own: of Playwright, which it starts, there is one in a thread.
-        with ThreadPoolExecutor(1) as thread:
-            code = thread.submit(main, ["export", *map(str, arguments)]).result()
+        code = main(["export", *map(str, arguments)])
         said = capfd.readouterr()
         assert (code, said.err) == (0, "")
         return said.out
@@ -140,3 +146,53 @@ def test_the_app_makes_an_offline_page_while_the_session_goes_on(tab: Tab):
     page = Path(download.value.path()).read_text()
     assert f"<title>{name.removesuffix('.html')} (simulated)</title>" in page
     assert "__VISER_EMBED_DATA__" in page
+
+
+def drawing_in(folder: Path) -> list[str]:
+    """Commands of the processes that have to do with a folder."""
+    found: list[str] = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):
+            command = path.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            found += [command] if f"--user-data-dir={folder}" in command else []
+    return found
+
+
+@pytest.fixture
+def scratch() -> Iterator[Path]:
+    """A folder with a path that is short enough for Chromium."""
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+        yield Path(folder)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_an_export_that_is_ended_leaves_no_chromium_and_no_files(
+    number: int, sample: Path, tmp_path: Path, scratch: Path
+):
+    asked = ["export", str(sample), "--screenshot", str(tmp_path / "a.png")]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "app", *asked],
+        env=os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(scratch)},
+        stderr=subprocess.PIPE,
+    )
+    waiting.until(lambda: len(drawing_in(scratch)) > 2, 30)  # it, and processes of its own
+    process.send_signal(number)
+    _, said = process.communicate(timeout=20)
+    assert said == b""
+    assert process.returncode == (-number if number == signal.SIGKILL else 130)
+    waiting.until(lambda: not drawing_in(scratch))
+    if number == signal.SIGKILL:
+        with scratch_folder(scratch):
+            pass  # the next command removes what a killed one leaves
+    assert not list(scratch.iterdir())
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_long_path_of_temporary_files_does_not_matter(
+    sample: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, export: Export
+):
+    long = tmp_path / (150 * "a")
+    long.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(long))
+    export(sample, "--screenshot", tmp_path / "a.png", "--size", "64x64", "--frame", 24)
+    assert not list(long.iterdir())

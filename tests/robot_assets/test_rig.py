@@ -160,9 +160,9 @@ def test_a_rig_has_at_most_a_thousand_sensors(tmp_path):
     ("content", "sentence"),
     [
         (b"name = ", "is not a TOML file: "),
-        (b"\xff\xfe", "is not a TOML file: "),
-        (b"name = " + 10_000 * b"1", "is not a TOML file: "),
-        (b"name = " + 10_000 * b"[", "is not a TOML file: "),
+        (b"\xff\xfe", "is not a text file, so it cannot be a rig file."),
+        (b"name = " + 10_000 * b"1", "holds a number of thousands of digits; "),
+        (b"name = " + 10_000 * b"[", "has too deeply nested lists or tables."),
     ],
 )
 def test_what_is_no_toml(tmp_path, content, sentence):

@@ -65,7 +65,7 @@ def test_a_file_is_read(tmp_path: Path):
 def test_files_that_cannot_be_read_are_one_sentence(tmp_path: Path):
     with pytest.raises(InputError, match=r"^There is no file .*none\.json; check the spelling\.$"):
         load(tmp_path / "none.json")
-    with pytest.raises(InputError, match=r"cannot be read as parameters \(Is a directory\)\.$"):
+    with pytest.raises(InputError, match=r"cannot be read as parameters \(it is a folder\)\.$"):
         load(tmp_path)
     (tmp_path / "bytes").write_bytes(b"\xff\xfe")
     with pytest.raises(

@@ -1,3 +1,5 @@
+import os
+
 import pytest
 
 from app.command_line import main
@@ -91,3 +93,14 @@ def test_a_page_of_some_frames(tmp_path, capsys):
     assert "delta: 0.04" in page
     said = capsys.readouterr().out
     assert said.startswith(f"{place}: frames 10 to 12 of {sample.stem}")
+
+
+def test_a_chromium_that_ends_at_once_is_one_sentence(room, tmp_path, monkeypatch, capsys):
+    (tmp_path / "bin").mkdir()
+    fake = tmp_path / "bin" / "chromium"
+    fake.write_text("#!/bin/sh\nexit 7\n")
+    fake.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{fake.parent}:{os.environ['PATH']}")
+    code, said = refusal(capsys, room, "--screenshot", tmp_path / "a.png")
+    assert code == 1
+    assert f"Chromium at {fake} does not start (it ended at once, with the exit code 7)." in said

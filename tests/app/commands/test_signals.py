@@ -1,15 +1,20 @@
 """Signals and broken outputs end a command quietly, from the first moment."""
 
+import logging
 import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from app.commands.signals import raising_keyboard_interrupt
 from recordings import sample_paths
+from tests.app.waiting import until
+from tests.app.wire_client import WireClient
 from tests.conftest import REPOSITORY
 
 SAMPLE = str(sample_paths()[0])
@@ -71,3 +76,78 @@ def test_a_pipe_that_nothing_reads_and_a_closed_output_are_silent(tmp_path: Path
     shell = ["sh", "-c", 'exec "$@" >&-', "sh", *closed]
     done = subprocess.run(shell, cwd=REPOSITORY, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@NUMBERS
+def test_a_server_that_computes_for_a_client_ends_well(number: int, tmp_path: Path):
+    process = started("view", SAMPLE, "--port", "0", folder=tmp_path, stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    address = process.stdout.readline().split()[-1]
+    with WireClient(address, lambda *_: None) as client:
+        until(lambda: client.has("Frame"), 60)
+        process.send_signal(number)
+        _, said = process.communicate(timeout=20)
+    assert (process.returncode, said) == (0, "")
+
+
+_LIBRARY = """
+import os
+def disturbed(number):
+    try:
+        os.kill(os.getpid(), number)
+        for _ in range(10):
+            pass
+    except BaseException as error:
+        {then}
+"""
+_WORKING = """
+def work(number, done):
+    try:
+        disturbed(number)
+        done.append("more work")
+    except Exception:
+        done.append("an error of another kind")
+    finally:
+        done.append("cleaned")
+        done.append("up")
+"""
+
+
+@pytest.mark.parametrize("then", ["pass", "raise ImportError from error"])
+@NUMBERS
+def test_a_library_that_catches_everything_does_not_keep_a_command_from_ending(
+    number: int, then: str
+):
+    library: dict[str, Any] = {"__name__": "some_library"}
+    exec(_LIBRARY.format(then=then), library)
+    ours: dict[str, Any] = {"__name__": "app.working", "disturbed": library["disturbed"]}
+    exec(_WORKING, ours)
+    done: list[str] = []
+    hook = sys.unraisablehook
+    try:
+        with pytest.raises(KeyboardInterrupt), raising_keyboard_interrupt():
+            ours["work"](number, done)
+    finally:
+        sys.settrace(None)
+        sys.unraisablehook = hook
+        logging.disable(logging.NOTSET)
+    assert done == ["cleaned", "up"]
+
+
+_FAILING_AT_ITS_END = """
+import ctypes, os, sys
+libc = ctypes.CDLL(None)
+libc.__cxa_atexit(ctypes.cast(libc._exit, ctypes.c_void_p), ctypes.c_void_p(1), None)
+from app.commands import running
+def run(_):
+    os.kill(os.getpid(), 15)
+running.run = run
+from app.command_line import main
+sys.exit(main())
+"""
+
+
+def test_a_c_library_that_fails_at_the_end_does_not_change_the_exit_code():
+    command = [sys.executable, "-c", _FAILING_AT_ITS_END]
+    ended = subprocess.run(command, cwd=REPOSITORY, capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (130, "")

@@ -73,12 +73,12 @@ def stop_after_the_first(
 ) -> dict[Path, int]:
     """Start a study, stop it once a result is kept, and return what is kept in the end."""
     process = study.start()
-    until(lambda: list(study.scratch.glob("tofscope-study-*")))
-    until(study.kept)
+    until(lambda: list(study.scratch.glob("tofscope-scratch-*")), 30)
+    until(study.kept, 30)
     stop(process)
     _, said = process.communicate(timeout=10)
     assert process.returncode == 130
-    assert not list(study.scratch.glob("tofscope-study-*"))
+    assert not list(study.scratch.glob("tofscope-scratch-*"))
     # Workers end with the recordings that they are at.
     until(lambda: not _running(process.pid))
     kept = study.kept()
@@ -110,3 +110,14 @@ def test_after_ctrl_c_the_same_command_goes_on(study: Study):
     after = study.kept()
     assert {path: after[path] for path in kept} == kept
     assert len(after) == 3
+
+
+def test_a_study_that_is_killed_leaves_no_process_and_the_next_one_no_scratch(study: Study):
+    process = study.start()
+    until(study.kept, 30)
+    process.kill()
+    process.communicate(timeout=10)
+    # Workers end within a second, and with them the process that tracks their resources.
+    until(lambda: not _running(process.pid), 5)
+    study.run()
+    assert not list(study.scratch.iterdir())

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from app.command_line import main
+from app.errors import InputError
 from tests.recordings.foreign import ForeignFile, image
 from tests.recordings.room import write_room
 
@@ -132,11 +133,11 @@ def test_a_broken_recording_and_one_without_truth_do_not_lose_the_rest(
 def test_a_result_that_cannot_be_kept_does_not_end_the_study(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
+    def full(path: Path, _: bytes) -> None:
+        raise InputError(f"{path} cannot be written: No space left on device.")
 
     room = write_room(tmp_path / "room.mcap", frames=12)
-    monkeypatch.setattr("os.replace", full)
+    monkeypatch.setattr("app.study.store.write", full)
     assert study(tmp_path / "out", "--recordings", str(room.path), "--sweep") == 0
     said = capsys.readouterr().err.splitlines()
     assert [line.partition(":")[0] for line in said] == ["Result not stored for later runs"]

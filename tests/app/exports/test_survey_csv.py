@@ -31,7 +31,7 @@ def test_the_file_says_what_it_is_and_holds_a_line_per_frame():
 
 
 def test_simulated_data_are_called_so():
-    fake = fake_recording(name="two\nlines")
+    fake = fake_recording(name='two\nlines,"=1+1;\udcff')
     fake.simulated = True
     text = to_csv(fake, Survey(fake, Parameters()))
-    assert text.startswith("# Tofscope; recording two lines.mcap; simulated; ")
+    assert text.startswith("# Tofscope; recording two lines =1+1 \\udcff.mcap; simulated; ")

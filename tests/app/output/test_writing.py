@@ -3,6 +3,7 @@
 import errno
 import os
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,16 @@ def test_an_interruption_leaves_nothing_beside_it(tmp_path: Path, monkeypatch: p
     with pytest.raises(KeyboardInterrupt):
         write(tmp_path / "a.json", b"after")
     assert not list(tmp_path.iterdir())
+
+
+def test_drafts_of_killed_processes_are_removed_and_those_of_others_are_not(tmp_path: Path):
+    for name, age in (("old", 7200), ("new", 60)):
+        draft = tmp_path / f".tofscope-{name}.part"
+        draft.touch()
+        then = time.time() - age
+        os.utime(draft, (then, then))
+    write(tmp_path / "a.json", b"content")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.json", ".tofscope-new.part"}
 
 
 def test_a_link_is_followed(tmp_path: Path):

@@ -15,6 +15,11 @@ def test_messages_are_handed_over_in_their_order(client):
     assert any("?link=token" in script for script in scripts)
 
 
+def test_a_sentence_about_a_file_whose_name_is_no_text_can_be_sent(client):
+    Delivery(client).deliver([Notice("A", "a\udcff.mcap is empty.")])
+    assert client.notifications == [r"a\udcff.mcap is empty."]
+
+
 def test_a_notice_replaces_the_last_of_its_title_where_it_says_so(client):
     delivery = Delivery(client)
     delivery.deliver([Notice("A", "one", replaces=True), Notice("B", "two", replaces=True)])

@@ -140,6 +140,20 @@ def test_half_a_file_is_computed_again_and_a_failure_is_not_kept(tmp_path: Path)
     assert store.missing(work) == work
 
 
+@pytest.mark.parametrize(
+    "content",
+    [100_000 * "[", 100_000 * '{"a":', "[]", '{"results": NaN}', 5000 * "1"],
+    ids=["lists", "tables", "a list", "nan", "digits"],
+)
+def test_nonsense_in_a_file_is_computed_again(tmp_path: Path, content: str):
+    work = Work(SOURCE, (EvaluationCase(EIGHT),))
+    store = Store(tmp_path, "ours")
+    store.keep(finished(SOURCE, *work.cases))
+    assert store.missing(work) is None
+    next(tmp_path.glob("*.json")).write_text(content)
+    assert store.missing(work) == work
+
+
 def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match="cannot be made"):
