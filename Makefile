@@ -3,7 +3,7 @@
 BIN := .venv/bin
 STAMP := .venv/.set-up
 
-.PHONY: run test setup samples
+.PHONY: run test fuzz setup samples
 
 # Open the app; ARGS goes to `tofscope view`, as in: make run ARGS="my_recording.mcap --port 9000"
 run: setup
@@ -17,6 +17,10 @@ test: setup
 	$(BIN)/ruff format --check
 	$(BIN)/pyright
 	PYTHONDONTWRITEBYTECODE= OMP_NUM_THREADS=1 $(BIN)/pytest -n 2 --no-loadscope-reorder
+
+# Try thousands of damaged recordings; ARGS as in: make fuzz ARGS="--count 500 --seed 3"
+fuzz: setup
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.fuzz $(ARGS)
 
 # Everything that run and test need; skipped while nothing has changed.
 setup: $(STAMP)

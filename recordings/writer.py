@@ -1,8 +1,7 @@
 """Writer of recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
-import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 
@@ -11,6 +10,7 @@ from mcap.writer import CompressionType, Writer
 
 from recordings import ros_messages as ros
 from recordings.contents import natural_key
+from recordings.draft import Draft
 from recordings.errors import RecordingError
 from recordings.frame import Frame, PointTruth, Provenance
 from recordings.object_truth import OBJECT_FRAME
@@ -30,7 +30,7 @@ _STREAMED = "- durability: volatile\n  reliability: reliable\n  history: keep_la
 class RecordingWriter:
     """Writer of frames and their rig into an MCAP file; use it in a `with` statement.
 
-    The file appears under its name once it is complete; a failed one is removed.
+    The file appears under its name once it is complete; of a failed one nothing stays.
 
     Args:
         path: of the file; an existing file is replaced.
@@ -44,7 +44,6 @@ class RecordingWriter:
 
     def __init__(self, path: Path, robot: Robot, rig: Rig, provenance: Provenance) -> None:
         self._path = path
-        self._part = path.with_name(path.name + ".part")
         self._robot = robot
         self._rig = rig
         self._names = [topic_part(sensor.name) for sensor in rig.sensors]
@@ -54,15 +53,15 @@ class RecordingWriter:
         self._schemas: dict[str, int] = {}
         self._stamps: dict[str, list[int]] = {}
         with self._in_words():
-            self._stream = self._part.open("wb")
-        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+            self._draft = Draft(path)
+        self._writer = Writer(self._draft.stream, compression=CompressionType.ZSTD)
         try:
             with self._in_words():
                 self._writer.start(profile="ros2", library="tofscope")
                 self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
                 self._writer.add_attachment(0, 0, RIG_ATTACHMENT, RIG_TYPE, packed(rig))
         except BaseException:
-            self._discard()
+            self._draft.discard()
             raise
 
     def __enter__(self) -> "RecordingWriter":
@@ -79,12 +78,9 @@ class RecordingWriter:
                 with self._in_words():
                     self._writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(self._stamps))
                     self._writer.finish()
-                    self._stream.flush()
-                    os.fsync(self._stream.fileno())  # some disks tell only now that they are full
-                    self._stream.close()
-                    os.replace(self._part, self._path)
+                    self._draft.complete()
         finally:
-            self._discard()
+            self._draft.discard()
 
     def write(self, frame: Frame) -> None:
         """Append a frame; stamps must increase.
@@ -101,13 +97,6 @@ class RecordingWriter:
             yield
         except OSError as error:
             raise RecordingError(f"{self._path} cannot be written: {error.strerror}.") from error
-
-    def _discard(self) -> None:
-        """Remove the unfinished file, if there still is one."""
-        with suppress(OSError):  # on a full disk closing fails, too
-            self._stream.close()
-        with suppress(OSError):
-            self._part.unlink(missing_ok=True)
 
     def _write(self, frame: Frame) -> None:
         stamp = round(frame.stamp * 1e9)

@@ -25,7 +25,7 @@ def test_files_without_it_have_none():
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"\xff", "rig.toml in the file is not a TOML file: "),
+        (b"\xff", "rig.toml in the file is not a text file, so it cannot be a rig file."),
         (b"name = 7", "rig.toml in the file: name must be a text, got 7; "),
         (b"#" * 1_000_001, "The file's own rig has 1000001 bytes, too many"),
     ],

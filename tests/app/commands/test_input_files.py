@@ -153,7 +153,7 @@ def test_a_file_of_a_gigabyte_is_not_read(tmp_path: Path, capsys: pytest.Capture
     for way, said in (
         ("parameters", "has more than 10 MB, too much to be read as JSON"),
         ("rig", "has more than 1000000 bytes"),
-        ("urdf", "has more than 20 MB, too much for a URDF"),
+        ("urdf", "has more than 16777216 bytes, too many for a URDF"),
         ("info", "is not an MCAP file"),
     ):
         assert said in the_sentence(commands(file, tmp_path)[way], capsys)
