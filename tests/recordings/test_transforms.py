@@ -1,3 +1,4 @@
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -47,9 +48,33 @@ def test_only_chains_with_a_sampled_pose_move():
     assert not tree().moves("arm", "hand")
 
 
-def test_a_loop_ends():
+def test_a_loop_ends_and_is_told():
     loop = TransformTree({"a": "b", "b": "a"}, {"a": at(x=1)[None], "b": at(y=1)[None]})
     assert loop.root_of("a") == "b"
+    assert loop.root_of("b") == "b"
+    assert loop.cut == ["b"]
+    np.testing.assert_allclose(loop.transform("b", "a", 0), at(x=1))
+
+
+def test_a_deep_chain_has_the_poses_of_its_product():
+    depth, rng = 700, np.random.default_rng(0)
+    names = [f"f{i}" for i in range(depth + 1)]
+    poses = {
+        name: np.stack([at(*rng.normal(size=4)) for _ in range(2 if i % 5 else 1)])
+        for i, name in enumerate(names[1:])
+    }
+    poses["f400"] = np.stack([at(z=1.0), np.full((4, 4), np.nan)])
+    tree = TransformTree(dict(pairwise(reversed(names))), poses)
+    assert tree.root_of("f700") == "f0"
+    for a, b in ((0, 700), (100, 650), (255, 257), (300, 600), (512, 513)):
+        for k in (0, 1):
+            expected = np.eye(4)
+            for name in names[a + 1 : b + 1]:
+                expected = expected @ poses[name][k if len(poses[name]) > 1 else 0]
+            np.testing.assert_allclose(tree.transform(names[a], names[b], k), expected, atol=1e-9)
+            np.testing.assert_allclose(tree.over(names[a], names[b], 2)[k], expected, atol=1e-9)
+        found = tree.known(names[a], names[b], 2).tolist()
+        assert found == [True, not a < 400 <= b]
 
 
 def test_the_inverse_undoes():
