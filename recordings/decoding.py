@@ -33,6 +33,8 @@ class Decoder:
 
     Attributes:
         left_out: messages that do not fit their types.
+        has_stamp_index: whether the file has an index of header stamps.
+        doubted_index: whether that is no index, or has other stamps than the messages.
     """
 
     def __init__(self, file: McapFile) -> None:
@@ -42,6 +44,7 @@ class Decoder:
         index = file.attachment(STAMP_INDEX)
         self._stamp_index = unpack(index, file.message_count) if index is not None else {}
         self.has_stamp_index = bool(self._stamp_index)
+        self.doubted_index = index is not None and not self._stamp_index
 
     def can_decode(self, channel: ChannelInfo) -> bool:
         """Whether the encoding of a channel's messages is supported."""
@@ -111,6 +114,7 @@ class Decoder:
             if indexed is not None and self._is_true(indexed, channel):
                 self._stamps[channel.id] = indexed
             else:
+                self.doubted_index |= indexed is not None
                 self.read_stamps([channel])
         return self._stamps[channel.id]
 

@@ -113,7 +113,10 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
     tree, warnings = read_transforms(topics, decoder, table.stamps)
     warnings += (
-        damaged + about_rig + unfit_intrinsics(found, topics) + _about_file(file, table, len(found))
+        damaged
+        + about_rig
+        + unfit_intrinsics(found, topics)
+        + _about_file(file, decoder, table, len(found))
     )
 
     names = joint_names(topics, decoder)
@@ -165,13 +168,18 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     )
 
 
-def _about_file(file: McapFile, table: FrameTable, sensors: int) -> list[str]:
+def _about_file(file: McapFile, decoder: Decoder, table: FrameTable, sensors: int) -> list[str]:
     """Warnings about the file as a whole."""
     warnings: list[str] = []
     if file.cut_short:
         warnings.append("The file is cut short; what it holds up to there is used.")
     if file.broken_chunks:
         warnings.append(f"Broken pieces of the file, {file.broken_chunks} of them, are left out.")
+    if decoder.doubted_index and not (file.cut_short or file.broken_chunks):
+        warnings.append(
+            "The file's index of stamps does not fit its messages; it is not used, and their "
+            "headers are read."
+        )
     if table.completeness < _COMPLETE:
         warnings.append(
             f"A frame holds {table.completeness * sensors:.1f} of the {sensors} sensors on "

@@ -249,8 +249,8 @@ HANDMADE: dict[str, Handmade] = {
     "frame_long": _tree(lambda: [("w" * 100_000, "eye")]),
     "frame_empty": _tree(lambda: [("", "eye")]),
     # Attachments and records that lie.
-    "index_nothing": _attached(STAMP_INDEX, b""),
-    "index_no_zip": _attached(STAMP_INDEX, b"PK\x03\x04" + bytes(100)),
+    "index_nothing": _attached(STAMP_INDEX, b"", "index of stamps does not fit"),
+    "index_no_zip": _attached(STAMP_INDEX, b"PK\x03\x04" + bytes(100), "index of stamps does not fit"),
     "rig_nothing": _attached(RIG_ATTACHMENT, b"", "It is not used"),
     "rig_large": _attached(RIG_ATTACHMENT, b"#" * 1_000_001, "too many"),
     "rig_deep": _attached(RIG_ATTACHMENT, b"a=" + b"[" * 100_000, "It is not used"),
