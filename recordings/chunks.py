@@ -15,6 +15,9 @@ LARGEST_RECORD = 256 * 2**20
 Writers make chunks of one to some ten MB; a larger record is left out like a broken one.
 """
 
+_BOMB, _RATIO = 2**26, 1000
+"""Bytes above which a chunk may not be so many times as large as its compressed form."""
+
 
 def chunk_data(record: bytes) -> bytes:
     """Decompress a chunk record; its size and its CRC are checked.
@@ -26,6 +29,8 @@ def chunk_data(record: bytes) -> bytes:
     size = chunk.uncompressed_size
     if size > LARGEST_RECORD:
         raise ValueError(f"a chunk of {size} bytes is larger than {LARGEST_RECORD}")
+    if size > _BOMB and size > _RATIO * len(chunk.data):
+        raise ValueError(f"a chunk of {len(chunk.data)} bytes becomes one of {size}")
     if chunk.compression == "":
         data = chunk.data
     elif chunk.compression in _DECOMPRESS:

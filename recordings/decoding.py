@@ -1,6 +1,7 @@
 """Decoding of ROS 2 messages (CDR) by the schemas in the file."""
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any
 
@@ -90,16 +91,17 @@ class Decoder:
 
     def first(self, channel: ChannelInfo) -> Any:  # noqa: ANN401
         """The first message of a channel that fits its type; None where none of some does."""
-        return next(self.messages(channel, _TRIED), None)
+        return next(self.first_messages(channel, _TRIED), None)
 
-    def messages(self, channel: ChannelInfo, most: int | None = None) -> Iterator[Any]:
-        """The messages of a channel that fit its type, decoded one by one.
+    def first_messages(self, channel: ChannelInfo, count: int) -> Iterator[Any]:
+        """Those of the first messages of a channel that fit its type; none is noted."""
+        for index in range(len(self._file.table(channel)))[:count]:
+            with suppress(MisfitError):
+                yield self.decode(channel, index)
 
-        Args:
-            channel: of the file.
-            most: number of messages that are tried; default: all.
-        """
-        for index in range(len(self._file.table(channel)))[:most]:
+    def messages(self, channel: ChannelInfo) -> Iterator[Any]:
+        """All messages of a channel that fit its type, decoded one by one."""
+        for index in range(len(self._file.table(channel))):
             if (message := self.fitting(channel, index)) is not None:
                 yield message
 

@@ -4,13 +4,14 @@ import os
 from contextlib import suppress
 from pathlib import Path
 from typing import IO
+from uuid import uuid4
 
 
 class Draft:
     """File that is written; `complete` gives it its name, in place of what had it.
 
     Where the system can (Linux), it has no name until then, so that it goes with its process even
-    if that is killed; elsewhere it is `<name>.part` meanwhile.
+    if that is killed; elsewhere it has a name of its own beside it meanwhile.
 
     Args:
         path: of the complete file.
@@ -24,8 +25,9 @@ class Draft:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._part = path.with_name(path.name + ".part")
-        self.stream: IO[bytes] = _unnamed(path.parent) or self._part.open("wb")
+        # A name of its own for every writer: two of them at once both succeed.
+        self._part = path.with_name(f".tofscope-{uuid4().hex}.part")
+        self.stream: IO[bytes] = _unnamed(path.parent) or self._part.open("xb")
 
     def complete(self) -> None:
         """Give the file its name.
@@ -37,7 +39,6 @@ class Draft:
         number = self.stream.fileno()
         os.fsync(number)  # some disks tell only now that they are full
         if os.fstat(number).st_nlink == 0:
-            self._part.unlink(missing_ok=True)
             # With a folder given, whichever, Python follows the link to the file.
             os.link(f"/proc/self/fd/{number}", self._part, src_dir_fd=number)
         self.stream.close()

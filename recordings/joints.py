@@ -130,7 +130,7 @@ def _is_not_measured(topic: str) -> bool:
 
 
 def _first_names(topic: Topic, decoder: Decoder) -> set[tuple[str, ...]]:
-    messages = decoder.messages(topic.channel, _FIRST_MESSAGES)
+    messages = decoder.first_messages(topic.channel, _FIRST_MESSAGES)
     return {tuple(str(name) for name in message.name) for message in messages}
 
 

@@ -38,9 +38,6 @@ def object_truth(
 
     Returns:
         The truth, None where there is none, and warnings about topics that could not be used.
-
-    Raises:
-        RecordingError: a message does not fit its type.
     """
     if truth_frame is not None:
         if truth_frame not in tree.frames or not tree.connected(fixed_frame, truth_frame):

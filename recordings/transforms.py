@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder, stamp_of
-from recordings.errors import few
+from recordings.errors import RecordingError, few
 from recordings.tracks import PoseTrack, Stamps, last_poses, pose_tracks
 
 Transform = NDArray[np.float64]
 _STILL = 1e-3  # metres, and rad of small angles
+MOST_POSES = 2**22
+"""Poses of moving frames times frames of a recording: 500 MB."""
 _TOLD = 8  # frames with two parents that are named
 _SEGMENT = 256
 """Frames of a chain whose product is kept; the trees of robots are not as deep."""
@@ -113,6 +115,8 @@ class TransformTree:
 
     def _common_of(self, a: str, b: str) -> str:
         """Lowest common ancestor of two connected frames."""
+        if self._depth.get(a, 0) == 0:
+            return a
         while a != b:
             if self._depth[a] >= self._depth[b]:
                 a = self._parents[a]
@@ -245,13 +249,20 @@ class _Poses(Mapping[str, Transform]):
     def __init__(
         self, fixed: Mapping[str, PoseTrack], moving: Mapping[str, PoseTrack], stamps: Stamps
     ) -> None:
-        self._moving, self._stamps = moving, stamps
+        self._moving, self._stamps, self._computed = moving, stamps, 0
         self._known = dict(zip(fixed, last_poses(list(fixed.values()))[:, None], strict=True))
         for frame in moving:
             self._known.pop(frame, None)
 
     def __getitem__(self, frame: str) -> Transform:
+        """Poses of a frame; RecordingError where there are too many."""
         if frame not in self._known:
+            self._computed += 1
+            if self._computed * len(self._stamps) > MOST_POSES:
+                raise RecordingError(
+                    f"/tf moves more than {self._computed - 1} frames that place the sensors, "
+                    f"and there may be {MOST_POSES} poses; give the file in parts."
+                )
             self._known[frame] = self._moving[frame].at(self._stamps)
         return self._known[frame]
 

@@ -3,6 +3,9 @@
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
+LONGEST_NAME = 1000
+"""Characters of the name of a joint or a link."""
+
 
 @dataclass(frozen=True)
 class JointMatch:
@@ -92,6 +95,8 @@ def _by_prefix(
     wanted = set(wanted)
     found: dict[str, dict[str, str]] = {}
     for name in recorded:
+        if len(name) > LONGEST_NAME:
+            continue
         # A core may begin where a word of the name does; the first that fits is the longest.
         starts = (i for i in range(max(len(name) - longest, 0), len(name)) if _begins(name, i))
         start = next((i for i in starts if name[i:] in joint_of), None)

@@ -39,11 +39,15 @@ class RobotMeshes:
     ) -> None:
         self._urdf = urdf
         self._places = places
-        self._left_out = {_shape_of(link): f"it is none of {', '.join(SHAPES)}" for link in unknown}
-        for _, part in self._parts("visuals", "collisions"):
-            mesh = getattr(part.geometry, "mesh", None)
-            if mesh is not None:
-                self._found(mesh.filename)
+        # Keys end with what tells shapes of one link apart; a mesh counts once, however often used.
+        self._left_out = {
+            (_shape_of(link), f"unknown {i}"): f"it is none of {', '.join(SHAPES)}"
+            for i, link in enumerate(unknown)
+        }
+        parts = [part for _, part in self._parts("visuals", "collisions")]
+        meshes = [mesh for part in parts if (mesh := getattr(part.geometry, "mesh", None))]
+        for name in list(dict.fromkeys(str(mesh.filename) for mesh in meshes))[:MOST_SHAPES]:
+            self._look_up(name)
 
     def of(self, kind: Kind) -> dict[str, trimesh.Trimesh]:
         """{link: one mesh in the link's frame, metres, coloured per vertex}.
@@ -53,13 +57,14 @@ class RobotMeshes:
         found: dict[str, list[trimesh.Trimesh]] = {}
         left = MOST_TRIANGLES
         for number, (link, part) in enumerate(self._parts(kind)):
-            name = _name(part, link)
             try:
                 if number >= MOST_SHAPES:
                     raise MeshError(f"the robot has more than {MOST_SHAPES} shapes")
                 mesh = self._mesh(part, left)
             except MeshError as error:
-                self._left_out[name] = str(error)
+                mesh = getattr(part.geometry, "mesh", None)
+                shape = (_shape_of(link), f"{kind} {number}")
+                self._left_out[(mesh.filename, "") if mesh else shape] = str(error)
             else:
                 left -= len(mesh.faces)
                 found.setdefault(link, []).append(mesh)
@@ -69,14 +74,14 @@ class RobotMeshes:
     def warnings(self) -> list[str]:
         """A sentence for each reason why meshes or shapes are left out."""
         by_reason: dict[str, list[str]] = {}
-        for name, reason in list(self._left_out.items()):
+        for (name, _), reason in list(self._left_out.items()):
             by_reason.setdefault(reason, []).append(name)
         robot = self._urdf.robot.name
         return [
-            f"A mesh of {robot} is left out, {names[0]}: {reason}; {_EFFECT}."
+            f"A mesh or shape of {robot} is left out, {names[0]}: {reason}; {_EFFECT}."
             if len(names) == 1
-            else f"{len(names)} meshes of {robot} are left out, such as {names[0]}: {reason}; "
-            f"{_EFFECT}."
+            else f"{len(names)} meshes or shapes of {robot} are left out, such as {names[0]}: "
+            f"{reason}; {_EFFECT}."
             for reason, names in by_reason.items()
         ]
 
@@ -86,11 +91,11 @@ class RobotMeshes:
                 for part in getattr(link, kind):
                     yield str(name), part
 
-    def _found(self, filename: str) -> None:
+    def _look_up(self, filename: str) -> None:
         try:
             self._places.find(filename)
         except MeshError as error:
-            self._left_out[filename] = str(error)
+            self._left_out[filename, ""] = str(error)
 
     def _mesh(self, part: Any, most: int) -> trimesh.Trimesh:  # noqa: ANN401 (untyped)
         """Mesh of a part in its link's frame; MeshError where it cannot be used."""
@@ -140,11 +145,6 @@ def _numbers(
         text = " ".join(f"{number:g}" for number in numbers[:4]) or "nothing"
         raise MeshError(f"its {what} cannot be {text}")
     return numbers
-
-
-def _name(part: Any, link: str) -> str:  # noqa: ANN401
-    mesh = getattr(part.geometry, "mesh", None)
-    return str(mesh.filename) if mesh is not None else _shape_of(link)
 
 
 def _shape_of(link: str) -> str:

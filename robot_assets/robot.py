@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
 from robot_assets.input_files import open_file
-from robot_assets.joint_match import JointMatch, match_joints
+from robot_assets.joint_match import LONGEST_NAME, JointMatch, match_joints
 from robot_assets.kinematics import ROTARY, Kinematics
 from robot_assets.mesh_files import MeshPlaces, panda_urdf_path
 from robot_assets.meshes import SHAPES, RobotMeshes
@@ -29,6 +29,7 @@ _FARTHEST = 1e5
 """Metres from the base that a link at rest may be."""
 
 # What it says of broken descriptions is said in a sentence of ours.
+logging.getLogger("yourdfpy").propagate = False
 logging.getLogger("yourdfpy").addHandler(logging.NullHandler())
 
 
@@ -243,6 +244,8 @@ def _root(where: str, text: str) -> ElementTree.Element:
         raise RobotError(f"{where} has no links.")
     if (count := len(root.findall("link"))) > MOST_LINKS:
         raise RobotError(f"{where} has {count} links, more than {MOST_LINKS}.")
+    if any(len(part.get("name", "")) > LONGEST_NAME for part in root):
+        raise RobotError(f"{where} has names of more than {LONGEST_NAME} characters.")
     if any(not mesh.get("filename") for mesh in root.iter("mesh")):
         raise RobotError(f"{where} has a <mesh> without a filename.")
     return root
@@ -252,9 +255,15 @@ def _remove_unknown_shapes(root: ElementTree.Element) -> list[str]:
     """Remove shapes that a URDF cannot have, which yourdfpy fails on; returns their links."""
     links: list[str] = []
     for link in root.iter("link"):
-        for part in [*link.findall("visual"), *link.findall("collision")]:
-            shapes = [shape for geometry in part.findall("geometry") for shape in geometry]
-            if len(shapes) != 1 or shapes[0].tag not in SHAPES:
-                link.remove(part)
-                links.append(link.get("name", ""))
+        kept = [part for part in link if not _has_unknown_shape(part)]
+        if len(kept) < len(link):
+            links += [link.get("name", "")] * (len(link) - len(kept))
+            link[:] = kept
     return links
+
+
+def _has_unknown_shape(part: ElementTree.Element) -> bool:
+    if part.tag not in ("visual", "collision"):
+        return False
+    shapes = [shape for geometry in part.findall("geometry") for shape in geometry]
+    return len(shapes) != 1 or shapes[0].tag not in SHAPES

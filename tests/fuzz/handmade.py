@@ -211,6 +211,10 @@ HANDMADE: dict[str, Handmade] = {
     "bad_image_half": _one_bad("/eye/depth", bytes(40)),
     "bad_point_truth": _one_bad("/truth/points", seed="ours"),
     "bad_own_image": _one_bad("/tof/left/image", seed="ours"),
+    "bad_first_image": Handmade(
+        partial(_put, lambda: _arm().with_message(_arm().index_of("/eye/depth"), data=b"\x00")),
+        "Message 0 of /eye/depth is left out: it is too short for a header.",
+    ),
     "bad_only_tf_static": Handmade(
         partial(_put, lambda: _ours().with_message(_ours().index_of("/tf_static"), data=b"\x00")),
         "of /tf_static is left out",
@@ -312,6 +316,14 @@ HANDMADE: dict[str, Handmade] = {
         "child of two joints",
     ),
     "urdf_many_links": _described(urdf(LINK.format("a") * 20_001), "more than 20000"),
+    "urdf_many_shapes": _described(
+        urdf('<link name="a">' + "<visual/>" * 100_000 + "</link>"),
+        "100000 meshes or shapes of tester are left out",
+    ),
+    "urdf_long_names": _described(
+        urdf(LINK.format("a"), LINK.format("b" * 300_000), joint("j", "a", "b" * 300_000)),
+        "names of more than 1000 characters",
+    ),
     "urdf_deep": _described("<robot name='r'>" + "<a>" * 100_000, "is not a URDF"),
     "urdf_laughs": _described(
         '<!DOCTYPE r [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>'

@@ -33,14 +33,15 @@ def _named(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 def test_it_takes_the_place_of_what_was_there_once_it_is_complete(tmp_path: Path):
     path = tmp_path / "a.mcap"
     path.write_bytes(b"before")
-    (tmp_path / "a.mcap.part").write_bytes(b"left by another")
+    (tmp_path / "a.mcap.part").write_bytes(b"of somebody else")
     draft = Draft(path)
     draft.stream.write(b"after")
     assert path.read_bytes() == b"before"
     draft.complete()
     draft.discard()
     assert path.read_bytes() == b"after"
-    assert list(tmp_path.iterdir()) == [path]
+    assert (tmp_path / "a.mcap.part").read_bytes() == b"of somebody else"
+    assert len(list(tmp_path.iterdir())) == 2
 
 
 @pytest.mark.usefixtures("_named")

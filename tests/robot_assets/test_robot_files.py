@@ -67,8 +67,9 @@ def test_missing_meshes_are_named_and_the_rest_works(tmp_path):
     path.write_text(with_mesh("package://bot/gone.dae"))
     robot = load_robot(path)
     assert robot.mesh_warnings == [
-        "A mesh of tester is left out, package://bot/gone.dae: it is not there; --meshes names the "
-        "folder of its package; what it shows is neither drawn nor removed from the clouds."
+        "A mesh or shape of tester is left out, package://bot/gone.dae: it is not there; --meshes "
+        "names the folder of its package; what it shows is neither drawn nor removed from the "
+        "clouds."
     ]
     assert robot.collision_meshes == {}
     assert robot.link_poses({})["body"] == pytest.approx(np.eye(4))
@@ -86,7 +87,7 @@ def test_a_broken_mesh_is_left_out_and_told(tmp_path, name, content):
     assert robot.mesh_warnings == []
     assert robot.collision_meshes == {}
     (sentence,) = robot.mesh_warnings
-    assert sentence.startswith(f"A mesh of tester is left out, {name}: it ")
+    assert sentence.startswith(f"A mesh or shape of tester is left out, {name}: it ")
     assert "\n" not in sentence
 
 
@@ -164,7 +165,9 @@ def test_a_shape_that_cannot_be_is_left_out_and_told(geometry, reason):
         robot = load_robot(shape(geometry))
         assert robot.collision_meshes == {}
     (sentence,) = robot.mesh_warnings
-    assert sentence.startswith(f"A mesh of tester is left out, a shape of link body: {reason}")
+    assert sentence.startswith(
+        f"A mesh or shape of tester is left out, a shape of link body: {reason}"
+    )
 
 
 def test_triangles_are_bounded():
