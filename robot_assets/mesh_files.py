@@ -27,7 +27,8 @@ class MeshError(Exception):
 class MeshPlaces:
     """Where the mesh files of a robot may lie.
 
-    Packages are found by their names: example-robot-data, and those of a sourced ROS environment
+    Links in packages and folders are followed: who made them is the user. Packages are found by
+    their names: example-robot-data, and those of a sourced ROS environment
     (AMENT_PREFIX_PATH, ROS_PACKAGE_PATH).
 
     Attributes:
@@ -47,8 +48,10 @@ class MeshPlaces:
         """
         if "://" in name and not name.startswith((_PACKAGE, _FILE)):
             raise MeshError("it is neither a file nor in a package")
+        goes_up = ".." in Path(name).parts
         for root, path in self._candidates(name):
-            if _is_file(path) and (root is None or _lies_in(path, root)):
+            inside = root is None or (path.is_relative_to(root) and not goes_up)
+            if inside and _is_file(path):
                 return path
         if _is_file(Path(name.removeprefix(_FILE))):
             raise MeshError("it lies outside its package and the folders named with --meshes")
@@ -144,11 +147,6 @@ def _example_data() -> Path:
     # The package is a data wheel without a module to import.
     share = distribution(_EXAMPLE_DATA).locate_file(f"cmeel.prefix/share/{_EXAMPLE_DATA}")
     return Path(str(share))
-
-
-def _lies_in(path: Path, folder: Path) -> bool:
-    """Whether a file lies in a folder, links followed."""
-    return path.resolve().is_relative_to(folder.resolve())
 
 
 def _is_file(path: Path) -> bool:

@@ -188,7 +188,7 @@ def load_robot(source: str | Path | None = None, mesh_folders: Sequence[str | Pa
     Raises:
         RobotError: the file does not exist or is not a URDF.
     """
-    folders = tuple(Path(folder) for folder in mesh_folders)
+    folders = tuple(Path(folder).absolute() for folder in mesh_folders)
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return _robot(source, "The robot description", MeshPlaces(folders))
     path = panda_urdf_path() if source is None else Path(source)

@@ -125,7 +125,9 @@ def test_a_recorded_description_reads_named_folders_and_packages_only(tmp_path, 
     assert found("package://bot/meshes/box.stl", tmp_path / "mine")
     assert found("package://bot/meshes/box.stl", tmp_path / "mine" / "bot")
     (tmp_path / "mine" / "link.stl").symlink_to(outside)
-    assert not found("link.stl", tmp_path / "mine")
+    assert found("link.stl", tmp_path / "mine")  # as colcon build --symlink-install makes them
+    (tmp_path / "mine" / "folder").symlink_to(outside.parent)
+    assert not found("folder/../private/box.stl", tmp_path / "mine")
 
 
 def test_a_recorded_description_with_a_path_of_this_machine_shows_nothing_of_it(tmp_path):
