@@ -31,3 +31,24 @@ def open_file(path: Path) -> BufferedReader:
     if not stat.S_ISREG(mode):
         raise OSError(errno.ESPIPE, "it is a device and not a regular file", str(path))
     return path.open("rb")
+
+
+def read_file(path: Path, most: int, kind: str, error: type[Exception]) -> bytes:
+    """Content of a regular file of bounded size.
+
+    Args:
+        path: of the file.
+        most: bytes that it may have.
+        kind: of file that it is read as, such as "rig".
+        error: raised with a sentence where it cannot be read, or is larger.
+    """
+    try:
+        with open_file(path) as file:
+            content = file.read(most + 1)
+    except OSError as found:
+        raise error(f"{path} cannot be read as a {kind} file: {found.strerror}.") from found
+    if len(content) > most:
+        raise error(
+            f"{path} has more than {most} bytes, too many for a {kind} file; check the name."
+        )
+    return content

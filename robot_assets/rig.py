@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from robot_assets.input_files import open_file
+from robot_assets.input_files import read_file
 from robot_assets.rig_file import RigFile, RingTable, SensorModelTable, SingleTable
 from robot_assets.rig_problems import problems
 from robot_assets.sensor_model import SensorModel, unit
@@ -71,16 +71,7 @@ def load_rig(path: str | Path | None = None) -> Rig:
             wrong; the sentence names the first three of several.
     """
     where = Path(path) if path is not None else Path(str(files("robot_assets") / "rigs/paper.toml"))
-    try:
-        with open_file(where) as file:
-            content = file.read(_LARGEST + 1)
-    except OSError as error:
-        raise RigError(f"{where} cannot be read as a rig file: {error.strerror}.") from error
-    if len(content) > _LARGEST:
-        raise RigError(
-            f"{where} has more than {_LARGEST} bytes, too many for a rig file; check the name."
-        )
-    return parse_rig(content, str(where))
+    return parse_rig(read_file(where, _LARGEST, "rig", RigError), str(where))
 
 
 def parse_rig(content: bytes, where: str) -> Rig:

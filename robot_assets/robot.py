@@ -14,7 +14,7 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
-from robot_assets.input_files import open_file
+from robot_assets.input_files import read_file
 from robot_assets.joint_match import LONGEST_NAME, JointMatch, match_joints
 from robot_assets.kinematics import ROTARY, Kinematics
 from robot_assets.mesh_files import MeshPlaces, panda_urdf_path
@@ -197,16 +197,7 @@ def load_robot(source: str | Path | None = None, mesh_folders: Sequence[str | Pa
 
 def _read(path: Path) -> str:
     try:
-        with open_file(path) as file:
-            content = file.read(_LARGEST + 1)
-    except OSError as error:
-        raise RobotError(f"{path} cannot be read as a URDF file: {error.strerror}.") from error
-    if len(content) > _LARGEST:
-        raise RobotError(
-            f"{path} has more than {_LARGEST} bytes, too many for a URDF; check the name."
-        )
-    try:
-        return content.decode("utf-8-sig")
+        return read_file(path, _LARGEST, "URDF", RobotError).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise RobotError(f"{path} is not a URDF: it is not a text file.") from error
 
