@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from recordings.errors import MisfitError
+from recordings.floats import as_doubles
 from recordings.grids import SIZES, Grid, is_grid, size_text
 from recordings.range_format import RangeFormat
 
@@ -28,7 +29,7 @@ def depth_ranges(image: Any) -> NDArray[np.float64]:  # noqa: ANN401
         MisfitError: the image has fewer bytes than its size says.
     """
     if image.encoding == "32FC1":
-        return pixels(image, np.dtype(np.float32)).astype(np.float64)
+        return as_doubles(pixels(image, np.dtype(np.float32)))
     return pixels(image, np.dtype(np.uint16)).astype(np.float64) / 1000.0
 
 

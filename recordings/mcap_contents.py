@@ -12,9 +12,8 @@ from mcap.records import Channel, Schema
 from numpy.typing import NDArray
 
 from recordings.chunks import chunk_data
+from recordings.mcap_records import RECORD_HEAD
 
-RECORD_HEAD = struct.Struct("<BQ")
-"""Opcode, and length of the content."""
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 """Channel, sequence, log time, publish time."""
 UNCHUNKED = -1

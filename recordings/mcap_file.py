@@ -1,59 +1,33 @@
-"""MCAP file: channels, an index of the messages, and random access to messages."""
+"""MCAP file: channels, tables of their messages, and random access to messages."""
 
-import struct
 import threading
 from collections import OrderedDict
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from typing import IO
+from typing import TypeVar
 
 import numpy as np
 from mcap.data_stream import ReadDataStream
-from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.reader import SeekingReader
 from mcap.records import Attachment, Metadata
 from numpy.typing import NDArray
-from zstandard import ZstdError
 
-from recordings.chunks import LARGEST_RECORD, chunk_data
+from recordings.chunks import chunk_data
 from recordings.errors import BrokenFileError, RecordingError
 from recordings.mcap_contents import (
     MESSAGE_HEAD,
-    RECORD_HEAD,
-    SCANNED,
     UNCHUNKED,
     ChannelInfo,
-    Contents,
     MessageTable,
-    add_record,
     merged_channels,
-    record_name,
 )
-from robot_assets.input_files import open_file
+from recordings.mcap_index import index_of
+from recordings.mcap_records import BROKEN, RECORD_HEAD, RecordFile, broken_text
 
-MAGIC = b"\x89MCAP0\r\n"
-_OTHER_MAGIC = {
-    b"#ROSBAG V2.0": "a ROS 1 bag",
-    b"SQLite format 3\0": "an SQLite file, perhaps a ROS 2 bag in that format",
-}
+_Record = TypeVar("_Record", Attachment, Metadata)
 _CACHED_BYTES = 64 * 2**20  # of decompressed chunks
-_NAME_WITHIN = 4096  # bytes of a record
-_BROKEN = (
-    McapError,
-    OSError,
-    ValueError,  # also a chunk whose CRC is wrong
-    EOFError,
-    struct.error,
-    KeyError,
-    UnicodeDecodeError,
-    OverflowError,
-    MemoryError,  # a length that is nonsense
-    RuntimeError,  # lz4
-    ZstdError,
-)
 
 
 class McapFile:
@@ -75,14 +49,13 @@ class McapFile:
         self.path = path
         self._lock = threading.Lock()
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
-        self._stream = _opened(path)
-        self._size = self._stream.seek(0, 2)
+        self._file = RecordFile(path)
         try:
-            contents = (None if salvage else self._from_index()) or self._scanned()
+            contents = index_of(self._file, salvage)
             self.channels, self._tables = merged_channels(contents)
-        except _BROKEN as error:
-            self._stream.close()
-            raise BrokenFileError(f"{path} is a broken MCAP file: {_text(error)}.") from error
+        except BROKEN as error:
+            self._file.close()
+            raise BrokenFileError(f"{path} is a broken MCAP file: {broken_text(error)}.") from error
         self.cut_short = contents.cut_short
         self.broken_chunks = contents.broken_chunks
         self._metadata = contents.metadata
@@ -113,8 +86,8 @@ class McapFile:
         with self._in_words(channel, index):
             with self._lock:
                 if chunk == UNCHUNKED:
-                    self._check_open()
-                    return self._record(offset, Opcode.MESSAGE)[MESSAGE_HEAD.size :]
+                    self._file.check_open()
+                    return self._file.record(offset, Opcode.MESSAGE)[MESSAGE_HEAD.size :]
                 data = self._chunk(chunk)
             _, length = RECORD_HEAD.unpack_from(data, offset)
             start = offset + RECORD_HEAD.size
@@ -127,31 +100,31 @@ class McapFile:
             yield
         except OSError as error:
             raise RecordingError(f"{self.path} cannot be read: {error.strerror}.") from error
-        except _BROKEN as error:
-            raise BrokenFileError(
-                f"{self.path} is broken at message {index} of {channel.topic}: {_text(error)}."
-            ) from error
-
-    def _check_open(self) -> None:
-        if self._stream.closed:
-            raise RecordingError(f"{self.path} is closed.")
+        except BROKEN as error:
+            place = f"message {index} of {channel.topic}"
+            text = f"{self.path} is broken at {place}: {broken_text(error)}."
+            raise BrokenFileError(text) from error
 
     def attachment(self, name: str) -> bytes | None:
         """Content of an attachment; None where there is none, or it cannot be read."""
-        if name not in self._attachments:
-            return None
-        try:
-            return Attachment.read(self._small_record(*self._attachments[name])).data
-        except _BROKEN:
-            return None
+        found = self._small_record(self._attachments.get(name), Attachment.read)
+        return None if found is None else found.data
 
     def metadata(self, name: str) -> dict[str, str] | None:
         """A metadata record; None where there is none, or it cannot be read."""
-        if name not in self._metadata:
+        found = self._small_record(self._metadata.get(name), Metadata.read)
+        return None if found is None else found.metadata
+
+    def _small_record(
+        self, place: tuple[int, int] | None, read: Callable[[ReadDataStream], _Record]
+    ) -> _Record | None:
+        if place is None:
             return None
         try:
-            return Metadata.read(self._small_record(*self._metadata[name])).metadata
-        except _BROKEN:
+            with self._lock:
+                content = self._file.content(*place)
+            return read(ReadDataStream(BytesIO(content)))
+        except BROKEN:
             return None
 
     def starts(
@@ -206,132 +179,22 @@ class McapFile:
     def close(self) -> None:
         """Close the file."""
         with self._lock:
-            self._stream.close()
+            self._file.close()
             self._chunks.clear()
 
     def _chunk(self, start: int) -> bytes:
-        self._check_open()
+        self._file.check_open()
         if start in self._chunks:
             self._chunks.move_to_end(start)
             return self._chunks[start]
-        data = chunk_data(self._record(start, Opcode.CHUNK))
+        data = chunk_data(self._file.record(start, Opcode.CHUNK))
         self._chunks[start] = data
         while len(self._chunks) > 1 and sum(map(len, self._chunks.values())) > _CACHED_BYTES:
             self._chunks.popitem(last=False)
         return data
-
-    def _record(self, position: int, opcode: int) -> bytes:
-        """Content of the record at a position; errors as in `_place` and `_content`."""
-        return self._content(*self._place(position, opcode))
-
-    def _place(self, position: int, opcode: int) -> tuple[int, int]:
-        """Where the content of a record begins, and its length; ValueError for another kind."""
-        self._stream.seek(position)
-        found, length = RECORD_HEAD.unpack(self._stream.read(RECORD_HEAD.size))
-        if found != opcode:
-            raise ValueError(f"a record has the opcode {found} instead of {opcode}")
-        return position + RECORD_HEAD.size, length
-
-    def _content(self, start: int, length: int) -> bytes:
-        """Bytes of the file; ValueError where it has not as many, or they are too many."""
-        if start + length > self._size:
-            raise ValueError("a record is longer than the file")
-        if length > LARGEST_RECORD:
-            raise ValueError(f"a record of {length} bytes is larger than {LARGEST_RECORD}")
-        self._stream.seek(start)
-        return self._stream.read(length)
-
-    def _small_record(self, start: int, length: int) -> ReadDataStream:
-        with self._lock:
-            return ReadDataStream(BytesIO(self._content(start, length)))
-
-    def _from_index(self) -> Contents | None:
-        try:
-            return self._indexed()
-        except _BROKEN:
-            return None  # the summary is missing or broken
-
-    def _indexed(self) -> Contents | None:
-        """Contents by the summary, None where it is missing or does not cover all messages."""
-        self._stream.seek(0)
-        summary = SeekingReader(self._stream).get_summary()
-        if summary is None or not summary.chunk_indexes or summary.statistics is None:
-            return None
-        contents = Contents(dict(summary.channels), dict(summary.schemas))
-        read = 0
-        for index in summary.chunk_indexes:
-            for offset in index.message_index_offsets.values():
-                record = self._record(offset, Opcode.MESSAGE_INDEX)
-                read += len(record)
-                if read > self._size:
-                    return None  # indexes that point to the same records
-                contents.add_index(record, index.chunk_start_offset)
-        for kind, indexes, into in (
-            (Opcode.METADATA, summary.metadata_indexes, contents.metadata),
-            (Opcode.ATTACHMENT, summary.attachment_indexes, contents.attachments),
-        ):
-            for index in indexes:
-                into[index.name] = self._place(index.offset, kind)
-        complete = (
-            contents.message_count == summary.statistics.message_count
-            and set(contents.locations) <= set(contents.channels)
-            and all(c.schema_id in (0, *contents.schemas) for c in contents.channels.values())
-            and len(summary.metadata_indexes) == summary.statistics.metadata_count
-            and len(summary.attachment_indexes) == summary.statistics.attachment_count
-        )
-        return contents if complete else None
-
-    def _scanned(self) -> Contents:
-        contents = Contents()
-        position = len(MAGIC)
-        while True:
-            self._stream.seek(position)
-            head = self._stream.read(RECORD_HEAD.size)
-            if len(head) < RECORD_HEAD.size:
-                contents.cut_short = True
-                return contents
-            opcode, length = RECORD_HEAD.unpack(head)
-            if opcode == Opcode.DATA_END:
-                return contents
-            start = position + RECORD_HEAD.size
-            if start + length > self._size:
-                contents.cut_short = True
-                return contents
-            try:
-                if opcode in SCANNED:
-                    add_record(contents, opcode, self._content(start, length), position)
-                elif opcode in (Opcode.METADATA, Opcode.ATTACHMENT):
-                    name = record_name(opcode, self._content(start, min(length, _NAME_WITHIN)))
-                    into = contents.metadata if opcode == Opcode.METADATA else contents.attachments
-                    into[name] = start, length
-            except _BROKEN:
-                # Records are independent: those after a broken one can still be read.
-                contents.broken_chunks += 1
-            position = start + length
 
 
 def _gather(data: NDArray[np.uint8], at: NDArray[np.int64], size: int) -> NDArray[np.uint8]:
     """So many bytes (N, size) from each of several places, cut short at the end of the data."""
     places = at[:, None] + np.arange(size)
     return data[np.minimum(places, len(data) - 1)] if len(data) else np.zeros(places.shape, "u1")
-
-
-def _opened(path: Path) -> IO[bytes]:
-    if path.is_dir():
-        raise RecordingError(f"{path} is a folder, and a recording is one .mcap file.")
-    try:
-        stream = open_file(path)
-        head = stream.read(16)
-    except OSError as error:
-        raise RecordingError(f"{path} cannot be read: {error.strerror}.") from error
-    if head.startswith(MAGIC):
-        return stream
-    stream.close()
-    found = next((kind for magic, kind in _OTHER_MAGIC.items() if head.startswith(magic)), None)
-    if found is None:
-        raise RecordingError(f"{path} is {'not an MCAP file' if head else 'empty'}.")
-    raise RecordingError(f"{path} is not an MCAP file but {found}.")
-
-
-def _text(error: BaseException) -> str:
-    return str(error).strip().rstrip(".") or type(error).__name__

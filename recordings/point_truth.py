@@ -13,6 +13,7 @@ from recordings.cloud import Cloud
 from recordings.contents import TRUTH_FIELDS, Topic
 from recordings.decoding import Decoder
 from recordings.errors import MisfitError
+from recordings.floats import as_doubles
 from recordings.point_clouds import fields_of
 from recordings.tracks import FARTHEST, Stamps
 from recordings.transforms import Transform, inverse
@@ -160,7 +161,7 @@ def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor
     Raises:
         MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
-    table = {name: values.astype(np.float64) for name, values in fields_of(cloud).items()}
+    table = {name: as_doubles(values) for name, values in fields_of(cloud).items()}
     near = {name: np.abs(values) <= FARTHEST for name, values in table.items()}
     return {
         name: np.where(near[name], values, np.nan)

@@ -31,7 +31,7 @@ class Kinematics:
 
     def __init__(self, urdf: yourdfpy.URDF) -> None:
         self.links = tuple(str(link) for link in urdf.link_map)
-        above: dict[str, Any] = {}
+        above = self._above = dict[str, Any]()
         for joint in urdf.robot.joints:
             for end in (joint.parent, joint.child):
                 if end not in urdf.link_map:
@@ -77,9 +77,8 @@ class Kinematics:
 
     def needed_by(self, link: str) -> frozenset[str]:
         """Joints whose positions must be known to place a link, in the sense of `placed_by`."""
-        above = {str(joint.child): joint for joint in self.joints}
         needed: set[str] = set()
-        while (joint := above.get(link)) is not None:
+        while (joint := self._above.get(link)) is not None:
             if joint.type in ROTARY:
                 needed.add(driver(joint))
             link = str(joint.parent)

@@ -44,7 +44,7 @@ class MeshPlaces:
         """Find the file that a description names.
 
         Raises:
-            MeshError: it is not there, or lies elsewhere than it may.
+            MeshError: it is in none of the places.
         """
         if "://" in name and not name.startswith((_PACKAGE, _FILE)):
             raise MeshError("it is neither a file nor in a package")
@@ -53,9 +53,8 @@ class MeshPlaces:
             inside = root is None or (path.is_relative_to(root) and not goes_up)
             if inside and _is_file(path):
                 return path
-        if _is_file(Path(name.removeprefix(_FILE))):
-            raise MeshError("it lies outside its package and the folders named with --meshes")
-        raise MeshError("it is not there; --meshes names the folder of its package")
+        # Whether there is such a file elsewhere on this machine is not said.
+        raise MeshError("it is not found; --meshes names folders to look in")
 
     def _candidates(self, name: str) -> Iterator[tuple[Path | None, Path]]:
         """(folder that the file must lie in, None for any; path) in order of preference."""

@@ -1,6 +1,7 @@
 """Meshes of a robot's links; what cannot be used is left out and told."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -125,8 +126,13 @@ def _shape(geometry: Any) -> trimesh.Trimesh:  # noqa: ANN401
         return trimesh.creation.cylinder(radius=size[0], height=size[1])
     if geometry.sphere is not None:
         size = _numbers([geometry.sphere.radius], "radius", 1)
-        return trimesh.creation.icosphere(radius=size[0])
+        return _sphere(float(size[0])).copy()
     raise MeshError(f"it is none of {', '.join(SHAPES)}")
+
+
+@lru_cache(maxsize=8)
+def _sphere(radius: float) -> trimesh.Trimesh:
+    return trimesh.creation.icosphere(radius=radius)
 
 
 def _numbers(

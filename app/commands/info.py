@@ -78,7 +78,7 @@ def _described(recording: Recording) -> dict[str, Any]:
 def _print(info: FileInfo, summary: dict[str, Any]) -> None:
     _print_lines([f"{info.path}: {info.size / 1e6:.2f} MB, {info.duration:.2f} s"])
     if info.broken:
-        print(f"{info.broken} broken pieces of the file are left out.")
+        print(f"Broken pieces of the file, {info.broken} of them, are left out.")
     if info.cut_short:
         print("The file is cut short; what it holds up to there is used.")
     print()

@@ -16,6 +16,9 @@ GENERATOR = '<meta name="generator" content="Tofscope">'
 _LARGEST = 200_000_000
 """Bytes of a file that is read to find out who made it."""
 
+_HEAD = 4096
+"""Bytes of a page within which its head names its generator."""
+
 
 @dataclass(frozen=True)
 class OutputKind:
@@ -100,8 +103,8 @@ def _is_picture(path: Path) -> bool:
 
 
 def _is_page(path: Path) -> bool:
-    content = path.read_bytes()
-    return GENERATOR.encode() in content or b"Made with Tofscope." in content
+    with path.open("rb") as page:
+        return GENERATOR.encode() in page.read(_HEAD)
 
 
 TABLE = OutputKind(".json", _is_table)

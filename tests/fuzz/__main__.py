@@ -6,22 +6,22 @@ Runs in one process of bounded memory. Files that show a fault are kept, and end
 import argparse
 import collections
 import resource
-import signal
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from tests.fuzz.handmade import HANDMADE
+from tests.fuzz.limits import CPU_SECONDS
 from tests.fuzz.mutants import mutant
 from tests.fuzz.seeds import seeds
 from tests.fuzz.trial import Outcome, tried
 
 _MOST_MEMORY = 2_500_000_000  # bytes, so that a bomb ends the trial and not the machine
-_HANGS = 30.0  # seconds of CPU after which a trial is interrupted
 
 
 def main() -> int:
@@ -33,12 +33,11 @@ def main() -> int:
     parser.add_argument("--keep", type=Path, default=Path("fuzz"), help="folder for faulty files")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_AS, (_MOST_MEMORY, _MOST_MEMORY))
-    signal.signal(signal.SIGPROF, _interrupt)
     counts: collections.Counter[str] = collections.Counter()
     slowest, largest, began = 0.0, 0, time.monotonic()
     with TemporaryDirectory() as folder:
         for path in _files(Path(folder), options):
-            outcome = _bounded(path)
+            outcome = _timed(tried(path))
             kind = "fault" if outcome.faults else "refused" if outcome.refusal else "opened"
             counts[kind] += 1
             slowest, largest = max(slowest, outcome.seconds), max(largest, outcome.memory)
@@ -68,18 +67,11 @@ def _files(folder: Path, options: argparse.Namespace) -> Iterator[Path]:
         yield path
 
 
-def _bounded(path: Path) -> Outcome:
-    signal.setitimer(signal.ITIMER_PROF, _HANGS)
-    try:
-        return tried(path)
-    except TimeoutError:
-        return Outcome("", (), (f"it was interrupted after {_HANGS:g} s of CPU",), _HANGS, 0)
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-
-
-def _interrupt(*_: object) -> None:
-    raise TimeoutError
+def _timed(outcome: Outcome) -> Outcome:
+    """The outcome, with a fault where it took too long."""
+    if outcome.seconds <= CPU_SECONDS:
+        return outcome
+    return replace(outcome, faults=(*outcome.faults, f"it took {outcome.seconds:.1f} s of CPU"))
 
 
 if __name__ == "__main__":

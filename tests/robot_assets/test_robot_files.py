@@ -67,8 +67,8 @@ def test_missing_meshes_are_named_and_the_rest_works(tmp_path):
     path.write_text(with_mesh("package://bot/gone.dae"))
     robot = load_robot(path)
     assert robot.mesh_warnings == [
-        "A mesh or shape of tester is left out, package://bot/gone.dae: it is not there; --meshes "
-        "names the folder of its package; what it shows is neither drawn nor removed from the "
+        "A mesh or shape of tester is left out, package://bot/gone.dae: it is not found; --meshes "
+        "names folders to look in; what it shows is neither drawn nor removed from the "
         "clouds."
     ]
     assert robot.collision_meshes == {}
@@ -133,7 +133,7 @@ def test_a_recorded_description_reads_named_folders_and_packages_only(tmp_path, 
 def test_a_recorded_description_with_a_path_of_this_machine_shows_nothing_of_it(tmp_path):
     inside = load_robot(with_mesh(f"file://{cube(tmp_path)}"))
     assert inside.collision_meshes == {}
-    assert "it lies outside its package and the folders" in inside.mesh_warnings[0]
+    assert "box.stl: it is not found; " in inside.mesh_warnings[0]
 
 
 @pytest.mark.parametrize(

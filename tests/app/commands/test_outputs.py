@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from app.command_line import main
+from app.output.checks import GENERATOR
 from recordings import sample_paths
 from tests.recordings.room import write_room
 
@@ -70,9 +71,9 @@ def test_an_offline_page_on_a_full_disk_leaves_the_one_before(
     room: Path, tmp_path: Path, full_disk: None, capsys: pytest.CaptureFixture[str]
 ):
     page = tmp_path / "a.html"
-    page.write_text("Made with Tofscope.")
+    page.write_text(GENERATOR)
     assert main(["export", str(room), "--html", str(page)]) == 1
-    assert page.read_text() == "Made with Tofscope."
+    assert page.read_text() == GENERATOR
     assert not list(tmp_path.glob(".*"))
     assert "a.html cannot be written: File too large." in capsys.readouterr().err
 

@@ -8,7 +8,7 @@ import pytest
 
 from app.errors import InputError
 from app.exports.pictures import picture_file
-from app.output.checks import PAGE, PICTURE, TABLE, OutputKind, check_output
+from app.output.checks import GENERATOR, PAGE, PICTURE, TABLE, OutputKind, check_output
 from app.study import page
 from tests.app.exports.test_pictures import pixels
 
@@ -33,7 +33,20 @@ def test_what_tofscope_wrote_is_replaced(kind: OutputKind, tmp_path: Path):
 @each_kind
 @pytest.mark.parametrize(
     "content",
-    [b"\x89MCAP0\r\n", b"{}", b"[1]", b"<html></html>", b"\x89PNG\r\n\x1a\n", b'{"n": 5}', b"["],
+    [
+        *(
+            b"\x89MCAP0\r\n",
+            b"{}",
+            b"[1]",
+            b"<html></html>",
+            b"\x89PNG\r\n\x1a\n",
+            b'{"n": 5}',
+            b"[",
+        ),
+        b"<html><p>Made with Tofscope.</p></html>",
+        b"<html><p>" + b"My notes. " * 500 + GENERATOR.encode(),
+    ],
+    ids=range(9),
 )
 def test_what_it_did_not_write_is_refused(kind: OutputKind, content: bytes, tmp_path: Path):
     path = tmp_path / f"a{kind.ending}"
