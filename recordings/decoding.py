@@ -78,7 +78,7 @@ class Decoder:
         try:
             return self.decode(channel, index)
         except MisfitError as error:
-            self.left_out.add(channel.topic, index, str(error))
+            self.leave_out(channel, index, str(error))
             return None
 
     def readable(self, channel: ChannelInfo, index: int) -> Any | None:  # noqa: ANN401
@@ -86,8 +86,13 @@ class Decoder:
         try:
             return self.fitting(channel, index)
         except BrokenFileError:
-            self.left_out.add(channel.topic, index, "the file is broken there")
+            self.leave_out(channel, index, "the file is broken there")
             return None
+
+    def leave_out(self, channel: ChannelInfo, index: int, reason: str) -> None:
+        """Note in `left_out` that a message is not used."""
+        number = int(self._file.table(channel).number[index])
+        self.left_out.add(channel.topic, number, reason)
 
     def first(self, channel: ChannelInfo) -> Any:  # noqa: ANN401
         """The first message of a channel that fits its type; None where none of some does."""
@@ -146,7 +151,7 @@ class Decoder:
         ):
             short = np.flatnonzero(~whole).tolist()
             for index in short:
-                self.left_out.add(channel.topic, index, "it is too short for a header")
+                self.leave_out(channel, index, "it is too short for a header")
             if short:
                 self._file.leave_out(channel, short)
             self._stamps[channel.id] = _stamps(starts[whole])
@@ -170,12 +175,9 @@ def _store_of(channel: ChannelInfo) -> Typestore:
 
 
 def stamp_of(message: Any) -> int:  # noqa: ANN401 (any message with a header)
-    """Header stamp of a decoded message in nanoseconds; RecordingError where it has none."""
-    try:
-        stamp = message.header.stamp
-        return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
-    except AttributeError as error:
-        raise RecordingError("A message has no header stamp where its type should.") from error
+    """Header stamp of a decoded message in nanoseconds."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
 
 
 def _stamps(starts: NDArray[np.uint8]) -> NDArray[np.int64]:

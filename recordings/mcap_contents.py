@@ -39,11 +39,13 @@ class MessageTable:
     """Locations of the messages of one channel, in the order of their log times.
 
     Attributes:
+        number: (N,) of each message in the file, by which it is named; from 0.
         log_time: (N,) nanoseconds.
         chunk: (N,) offset of the chunk in the file, -1 where the message is in none.
         offset: (N,) offset of the message record in the decompressed chunk, or in the file.
     """
 
+    number: NDArray[np.int64]
     log_time: NDArray[np.int64]
     chunk: NDArray[np.int64]
     offset: NDArray[np.int64]
@@ -53,9 +55,8 @@ class MessageTable:
 
     def without(self, rows: list[int]) -> "MessageTable":
         """The table without some of its rows."""
-        return MessageTable(
-            *(np.delete(column, rows) for column in (self.log_time, self.chunk, self.offset))
-        )
+        columns = (self.number, self.log_time, self.chunk, self.offset)
+        return MessageTable(*(np.delete(column, rows) for column in columns))
 
 
 @dataclass
@@ -177,4 +178,5 @@ def _table(locations: "array[int]") -> MessageTable:
     """Table of messages at (log time, chunk, offset), in any order."""
     columns = np.frombuffer(locations.tobytes(), dtype=np.int64).reshape(-1, 3)
     columns = columns[np.argsort(columns[:, 0], kind="stable")]
-    return MessageTable(*(np.ascontiguousarray(column) for column in columns.T))
+    number = np.arange(len(columns))
+    return MessageTable(number, *(np.ascontiguousarray(column) for column in columns.T))

@@ -101,7 +101,8 @@ class McapFile:
         except OSError as error:
             raise RecordingError(f"{self.path} cannot be read: {error.strerror}.") from error
         except BROKEN as error:
-            place = f"message {index} of {channel.topic}"
+            number = self._tables[channel.id].number[index]
+            place = f"message {number} of {channel.topic}"
             text = f"{self.path} is broken at {place}: {broken_text(error)}."
             raise BrokenFileError(text) from error
 

@@ -148,7 +148,7 @@ class PointTruths:
             if missing := sorted(TRUTH_FIELDS - set(table)):
                 raise MisfitError(f"it lacks {', '.join(missing)}")
         except MisfitError as error:
-            self._decoder.left_out.add(self._topic.name, index, str(error))
+            self._decoder.leave_out(self._topic.channel, index, str(error))
             return None
         return _FrameTruth(table)
 

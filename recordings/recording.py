@@ -255,5 +255,5 @@ class Recording:
             return readings(image, status, stream.sensor, stream.form), codes
         except MisfitError as error:
             # One bad image does not cost the frame; only this sensor is left out.
-            decoder.left_out.add(stream.topic.name, index, str(error))
+            decoder.leave_out(stream.topic.channel, index, str(error))
             return nothing, None

@@ -167,9 +167,12 @@ def scratch() -> Iterator[Path]:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_an_export_that_is_ended_leaves_no_chromium_and_no_files(
-    number: int, sample: Path, tmp_path: Path, scratch: Path
+    number: int, tmp_path: Path, scratch: Path
 ):
-    asked = ["export", str(sample), "--screenshot", str(tmp_path / "a.png")]
+    out = tmp_path / "out"
+    out.mkdir()
+    room = write_room(tmp_path / "room.mcap").path
+    asked = ["export", str(room), "--screenshot", str(out / "a.png")]
     process = subprocess.Popen(
         [sys.executable, "-m", "app", *asked],
         env=os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(scratch)},
@@ -185,14 +188,15 @@ def test_an_export_that_is_ended_leaves_no_chromium_and_no_files(
         with scratch_folder(scratch):
             pass  # the next command removes what a killed one leaves
     assert not list(scratch.iterdir())
-    assert not list(tmp_path.iterdir())
+    assert not list(out.iterdir())
 
 
 def test_a_long_path_of_temporary_files_does_not_matter(
-    sample: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, export: Export
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, export: Export
 ):
+    room = write_room(tmp_path / "room.mcap").path
     long = tmp_path / (150 * "a")
     long.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(long))
-    export(sample, "--screenshot", tmp_path / "a.png", "--size", "64x64", "--frame", 24)
+    export(room, "--screenshot", tmp_path / "a.png", "--size", "64x64", "--frame", 11)
     assert not list(long.iterdir())

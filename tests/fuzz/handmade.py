@@ -189,7 +189,9 @@ HANDMADE: dict[str, Handmade] = {
         "the robot has more than 400000 triangles",
     ),
     "mesh_passwd": shaped(_MESH.format("file:///etc/passwd"), "it is not found"),
-    "mesh_up": shaped(_MESH.format("package://example-robot-data/../../../x.stl"), "it is not found"),
+    "mesh_up": shaped(
+        _MESH.format("package://example-robot-data/../../../x.stl"), "it is not found"
+    ),
     "mesh_long": shaped(_MESH.format("x" * 5000 + ".stl"), "it is not found"),
     "mesh_memory": shaped(_MESH.format("/proc/self/mem"), "it is not found"),
     "mesh_network": shaped(_MESH.format("http://127.0.0.1:9/a.stl"), "neither a file nor"),

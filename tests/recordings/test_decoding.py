@@ -120,7 +120,11 @@ def test_messages_that_are_too_short_for_a_header_are_left_out_and_counted(tmp_p
     assert decoder.left_out.sentences() == [
         "2 messages of /only are left out, first 0: it is too short for a header."
     ]
+    decoder.leave_out(channel, 1, "it is one more")
+    assert decoder.left_out.sentences()[1] == "Message 3 of /only is left out: it is one more."
     file.close()
+    with pytest.raises(RecordingError, match="is closed"):
+        file.message(channel, 1)
 
 
 def test_messages_that_do_not_fit_their_type_are_left_out_and_counted(tmp_path: Path):
@@ -154,11 +158,6 @@ def test_what_can_be_decoded_is_told_by_its_encoding(
 ):
     channel = SimpleNamespace(encoding=encoding, schema_encoding=schema)
     assert Decoder(file).can_decode(channel) is fits  # type: ignore[arg-type]
-
-
-def test_a_type_without_a_header_has_no_stamp():
-    with pytest.raises(RecordingError, match="no header stamp"):
-        stamp_of(SimpleNamespace(data=3))
 
 
 def test_stamps_are_whole_nanoseconds():
