@@ -35,13 +35,12 @@ class PoseTrack:
         known = (stamps >= self.stamps[0]) & (stamps <= self.stamps[-1])
         if not known.any():
             return poses
-        # Seconds from the start: nanoseconds since 1970 do not fit a float.
-        times = (self.stamps - self.stamps[0]) * 1e-9
+        times, apart = _times(self.stamps)
         wanted = (stamps[known] - self.stamps[0]) * 1e-9
         poses[known] = np.eye(4)
-        poses[known, :3, 3] = _linear(wanted, times, self.translation)
+        poses[known, :3, 3] = _linear(wanted, times, self.translation[apart])
         if len(times) > 1:
-            rotations = Slerp(times, Rotation.from_quat(self.rotation))(wanted)
+            rotations = Slerp(times, Rotation.from_quat(self.rotation[apart]))(wanted)
             poses[known, :3, :3] = rotations.as_matrix()
         else:
             poses[known, :3, :3] = Rotation.from_quat(self.rotation[0]).as_matrix()
@@ -124,9 +123,9 @@ class VectorTrack:
 
         The first and the last sample hold for one more sampling period; NaN further outside.
         """
-        times = (self.stamps - self.stamps[0]) * 1e-9
+        times, apart = _times(self.stamps)
         wanted = (stamps - self.stamps[0]) * 1e-9
-        values = _linear(wanted, times, self.values)
+        values = _linear(wanted, times, self.values[apart])
         margin = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
         values[(wanted < -margin) | (wanted > times[-1] + margin)] = np.nan
         return values
@@ -151,6 +150,19 @@ def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> Vect
     _, last = np.unique(stamps[::-1], return_index=True)
     rows = len(stamps) - 1 - last
     return VectorTrack(stamps[rows], values[rows])
+
+
+def _times(stamps: Stamps) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Seconds (M,) from the first stamp, since nanoseconds since 1970 do not fit a float.
+
+    After a first stamp of 0, stamps of today less than 240 ns apart are the same number of seconds.
+
+    Returns:
+        The seconds, strictly increasing, and (N,) whether a sample is one of those.
+    """
+    times = (stamps - stamps[0]) * 1e-9
+    apart = np.diff(times, prepend=-1.0) > 0
+    return times[apart], apart
 
 
 def _linear(

@@ -28,6 +28,9 @@ def main() -> int:
     """Try mutants, handmade files and named files; returns the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("files", nargs="*", type=Path, help="further recordings to try")
+    parser.add_argument(
+        "--of", nargs="*", type=Path, default=[], help="further recordings to make mutants of"
+    )
     parser.add_argument("--count", type=int, default=5000, help="mutants (default 5000)")
     parser.add_argument("--seed", type=int, default=0, help="of the mutants (default 0)")
     parser.add_argument("--keep", type=Path, default=Path("fuzz"), help="folder for faulty files")
@@ -59,7 +62,7 @@ def _files(folder: Path, options: argparse.Namespace) -> Iterator[Path]:
     yield from options.files
     for name, handmade in HANDMADE.items():
         yield handmade.write(folder / f"{name}.mcap")
-    good = list(seeds().items())
+    good = [*seeds().items(), *((path.stem, path.read_bytes()) for path in options.of)]
     for number in range(options.count):
         name, content = good[number % len(good)]
         path = folder / f"{name}_{options.seed}_{number}.mcap"

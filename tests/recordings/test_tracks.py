@@ -52,3 +52,16 @@ def test_the_mean_of_a_ramp_is_its_middle_and_of_a_corner_its_area():
     assert track.mean(0, S)[0] == pytest.approx(0.5)
     assert track.mean(0, 2 * S)[0] == pytest.approx(0.75)
     assert track.mean(S // 2, 3 * S // 2)[0] == pytest.approx(0.875)
+
+
+def test_after_a_stamp_of_zero_samples_a_few_nanoseconds_apart_are_one():
+    stamps = np.array([0, EPOCH, EPOCH + 100, EPOCH + S])
+    place = np.array([[0.0, 0, 0], [1.0, 0, 0], [1.0, 0, 0], [3.0, 0, 0]])
+    poses = pose_track(stamps, place, np.tile([0, 0, 0, 1.0], (4, 1)))
+    velocities = vector_track(stamps, place)
+    assert poses is not None
+    assert velocities is not None
+    wanted = [*stamps[:3].tolist(), EPOCH + S // 2, EPOCH + S]
+    found = [0.0, 1.0, 1.0, 2.0, 3.0]
+    np.testing.assert_allclose(poses.at(np.array(wanted))[:, 0, 3], found, atol=1e-6)
+    np.testing.assert_allclose(velocities.at(np.array(wanted))[:, 0], found, atol=1e-6)
