@@ -76,7 +76,7 @@ def pose_tracks(
     Returns:
         {number: track} of the frames with a usable pose.
     """
-    with np.errstate(over="ignore"):  # an infinite length is none
+    with np.errstate(over="ignore", invalid="ignore"):  # an infinite length is none, nor is NaN
         length = np.linalg.norm(rotation, axis=1)
     near = (np.abs(translation) <= FARTHEST).all(axis=1)
     good = np.flatnonzero(near & np.isfinite(length) & (length > 1e-6))

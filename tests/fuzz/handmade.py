@@ -6,6 +6,7 @@ from recordings.rig_record import RIG_ATTACHMENT
 from recordings.stamp_index import STAMP_INDEX
 from tests.fuzz.making import (
     MB,
+    SIGNALLING_NAN,
     Handmade,
     arm_file,
     attached,
@@ -114,6 +115,7 @@ HANDMADE: dict[str, Handmade] = {
     # Intrinsics.
     "focal_tiny": camera("a field of view of 45 degrees is assumed", fx=5e-324),
     "focal_nan": camera("its focal lengths are", fy=np.nan),
+    "focal_signalling": camera("its focal lengths are", fx=SIGNALLING_NAN),
     "focal_huge": camera("its focal lengths are", fx=1e308),
     "centre_huge": camera("its optical axis is at", cx=1e308),
     "centre_inf": camera("its optical axis is at", cy=-np.inf),
@@ -127,15 +129,18 @@ HANDMADE: dict[str, Handmade] = {
     "tree_self": tree(lambda: [("eye", "eye")], "go round in a circle above eye"),
     "tree_far": tree(lambda: line(3), "No pose of", x=1e308),
     "tree_no_number": tree(lambda: line(3), "No pose of", x=np.nan),
+    "tree_signalling": tree(lambda: line(3), "No pose of", x=SIGNALLING_NAN),
     "tree_two_parents": tree(
         lambda: [("a", "eye"), *((f"b{i}", "eye") for i in range(1, 50))], "two parents, a and b1"
     ),
     # Joints and truth.
     "joints_huge": joints({f"panda_joint{i}": 1e308 for i in range(1, 8)}),
     "joints_nan": joints({f"panda_joint{i}": np.nan for i in range(1, 8)}),
+    "joints_signalling": joints({f"panda_joint{i}": SIGNALLING_NAN for i in range(1, 8)}),
     "joints_many": joints({f"{'x_' * i}joint1": 0.0 for i in range(1000)}),
     "truth_huge": twist_of(1e308),
     "truth_inf": twist_of(np.inf),
+    "truth_signalling": twist_of(SIGNALLING_NAN),
     # Descriptions of robots.
     "urdf_nothing": described("<robot", "is not a URDF"),
     "urdf_chain": described(chain(*(f"joint{i}" for i in range(2000))), "has no position of"),

@@ -26,6 +26,8 @@ from tests.recordings.foreign import (
 )
 
 MB = 2**20
+SIGNALLING_NAN = float(np.array(0x7FF0000000000001, dtype=np.uint64).view(np.float64))
+"""NumPy warns of an operation on it, which it does not of other NaNs."""
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,11 @@
+import warnings
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from recordings.tracks import pose_track, vector_track
+from tests.fuzz.making import SIGNALLING_NAN
 
 S = 1_000_000_000
 EPOCH = 1_700_000_000 * S
@@ -37,6 +40,10 @@ def test_poses_may_come_in_any_order_and_the_last_of_equal_stamps_counts():
 def test_poses_that_are_none_are_left_out():
     assert pose_track(np.array([1]), np.zeros((1, 3)), np.zeros((1, 4))) is None
     assert pose_track(np.array([1]), np.full((1, 3), np.nan), np.ones((1, 4))) is None
+    for number in (np.nan, SIGNALLING_NAN, np.inf, 1e300):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert pose_track(np.array([1]), np.zeros((1, 3)), np.full((1, 4), number)) is None
 
 
 def test_a_velocity_holds_for_one_more_period_and_no_longer():
