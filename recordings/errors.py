@@ -2,10 +2,12 @@
 
 from collections.abc import Sequence
 
+from robot_assets.errors import SentenceError
+
 _FEW = 8
 
 
-class RecordingError(Exception):
+class RecordingError(SentenceError):
     """Recording that cannot be used; the message says what is wrong, where, and what to do."""
 
 

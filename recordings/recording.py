@@ -22,6 +22,7 @@ from recordings.sensor_poses import SensorPoses
 from recordings.sensors import DepthStream, RecordedSensor, readings, status_codes
 from recordings.truth import ObjectTruth, PairTruth, RigidTruth
 from robot_assets import Rig, Robot, SelfFilter, Transform
+from robot_assets.printable import printable
 
 _CACHED_FRAMES, _LEAST_CACHED = 512, 16
 _CACHED_ZONES = 2**20  # of all cached frames, each some 50 bytes
@@ -97,7 +98,8 @@ class Recording:
     def warnings(self) -> tuple[str, ...]:
         """Messages about unusable parts; reading further frames may add some."""
         robot = self.robot.mesh_warnings if self.robot else []
-        return (*self._parts.warnings, *robot, *self._parts.decoder.left_out.sentences())
+        left_out = self._parts.decoder.left_out.sentences()
+        return tuple(map(printable, (*self._parts.warnings, *robot, *left_out)))
 
     @property
     def has_truth(self) -> bool:

@@ -1,5 +1,15 @@
-"""Errors of robot descriptions."""
+"""Errors of robot descriptions and of rigs."""
+
+from robot_assets.printable import printable
 
 
-class RobotError(Exception):
+class SentenceError(Exception):
+    """Error whose text is written for the user, in one line whatever names of files it holds."""
+
+    def __str__(self) -> str:
+        """Its text, control characters in it as escapes."""
+        return printable(super().__str__())
+
+
+class RobotError(SentenceError):
     """Robot description, or a mesh of it, that cannot be used."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from robot_assets.errors import SentenceError
 from robot_assets.input_files import read_file
 from robot_assets.rig_file import RigFile, RingTable, SensorModelTable, SingleTable
 from robot_assets.rig_problems import problems
@@ -18,7 +19,7 @@ from robot_assets.sensor_model import SensorModel, unit
 _LARGEST = 1_000_000  # bytes; a thousand sensors need a third of it
 
 
-class RigError(Exception):
+class RigError(SentenceError):
     """Rig file that cannot be used; the message names the file and the key."""
 
 

@@ -31,8 +31,8 @@ from app.output.checks import TABLE, check_output
 from app.output.writing import write
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
-from app.terminal.printable import printable
 from estimator import ERROR_SYMBOLS, METRIC_INFO, Metrics, Parameters, to_nested
+from robot_assets.printable import printable
 
 _MEANS = tuple(key for key, info in METRIC_INFO.items() if info.kind != "count")
 _NUMBER = 6

@@ -10,8 +10,8 @@ from app.commands.flags.recording_flags import add_recording_flags, files_read, 
 from app.errors import InputError
 from app.output.checks import PAGE, PICTURE, check_output
 from app.output.writing import write
-from app.terminal.printable import printable
 from estimator import Parameters
+from robot_assets.printable import printable
 
 if TYPE_CHECKING:
     from app.analysis.library import Opened

@@ -8,10 +8,10 @@ from typing import Any
 
 from app.commands.flags.recording_flags import Opening, add_recording_flags, opening_from
 from app.errors import UserError
-from app.terminal.printable import printable
 from app.terminal.tables import ColumnStyle, show, table_of
 from recordings import Provenance, Recording
 from recordings.info import FileInfo, TopicInfo, file_info
+from robot_assets.printable import printable
 
 _COLUMNS = (
     ColumnStyle(["topic"]),

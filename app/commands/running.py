@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from app.commands import evaluate, export, info, simulate, study, view
 from app.commands.flags.parameter_flags import register_method_files
 from app.errors import UserError
-from app.terminal.printable import printable
+from robot_assets.printable import printable
 
 _LOG = logging.getLogger(__name__)
 _OURS = ("app", "estimator", "recordings", "robot_assets")

@@ -13,7 +13,6 @@ from app.commands.flags.simulation_flags import (
     scenario_names,
 )
 from app.errors import InputError
-from app.terminal.printable import printable
 from recordings import RecordingError, open_recording
 from recordings.simulation import (
     IMPERFECTIONS,
@@ -25,6 +24,7 @@ from recordings.simulation import (
     write_simulation,
 )
 from robot_assets import load_rig, load_robot
+from robot_assets.printable import printable
 
 _ENDING = ".mcap"
 _ONE_TRIAL = 1

@@ -29,11 +29,11 @@ from app.study.software import software_digest
 from app.study.store import Store
 from app.study.text_files import for_terminal
 from app.study.work import Recorded, Work
-from app.terminal.printable import printable
 from app.terminal.tables import show
 from estimator import method_names
 from recordings.simulation import IMPERFECTIONS, TRIALS
 from robot_assets import load_rig
+from robot_assets.printable import printable
 
 _T = TypeVar("_T")
 _SHOWN = ("table_1", "table_2")

@@ -10,8 +10,8 @@ from pathlib import Path
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
 from app.commands.signals import ending_at_once, handled
-from app.terminal.printable import printable
 from recordings import sample_paths
+from robot_assets.printable import printable
 
 _LOOK_UP = 0.5  # seconds
 # A host is a name, an IPv4 address, or an IPv6 address in brackets; what else stands there could

@@ -7,7 +7,7 @@ from time import monotonic
 from app.study.work import Simulated, Source, Work
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
-from app.terminal.printable import printable
+from robot_assets.printable import printable
 
 _SIMULATING = 2.0
 """Time to simulate a recording, in units of the time to run one method on it."""

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from app.terminal.printable import printable
+from robot_assets.printable import printable
 
 if TYPE_CHECKING:
     from rich.console import Console

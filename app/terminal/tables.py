@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from app.terminal.output import terminal
-from app.terminal.printable import printable
+from robot_assets.printable import printable
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -82,6 +82,7 @@ HANDMADE: dict[str, Handmade] = {
     "topic_escape": changed(lambda: arm_file().with_message(0, topic="/\x1b]0;x\x07")),
     "frame_digits": tree(lambda: [("world", "object_" + "7" * 5000), ("world", "eye")]),
     "frame_long": tree(lambda: [("w" * 100_000, "eye")]),
+    "frame_lines": tree(lambda: [("world", "a\nb\x1b"), ("a\nb\x1b", "eye")], r"a\nb\x1b", x=1e308),
     "frame_empty": tree(lambda: [("", "eye")]),
     # Attachments and records that lie.
     "index_nothing": attached(STAMP_INDEX, b"", "index of stamps does not fit"),

@@ -100,6 +100,8 @@ def _refused(action: Callable[[], None], faults: list[str]) -> str:
         except AssertionError as wrong:
             faults.append(str(wrong))
         return str(error)
+    except AssertionError as wrong:
+        faults.append(str(wrong))
     except Exception as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
         faults.append(f"{type(error).__name__} at {Path(place.filename).name}:{place.lineno}")

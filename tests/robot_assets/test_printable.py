@@ -1,6 +1,6 @@
 import pytest
 
-from app.terminal.printable import printable
+from robot_assets.printable import printable
 
 
 @pytest.mark.parametrize(

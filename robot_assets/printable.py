@@ -1,4 +1,4 @@
-"""Text that is safe to print at a terminal."""
+"""Text of one line, without control characters."""
 
 
 def printable(text: str) -> str:
