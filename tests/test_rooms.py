@@ -20,7 +20,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     ERRORS: LOWER,
     "app.browser": set(),
     "app.output": set(),
-    "app.terminal": set(),
+    "app.terminal": {"robot_assets"},
     "app.analysis": LOWER,
     "app.study": {"app.analysis", "app.output", "app.terminal", *LOWER},
     "app.scene": {"app.browser", "app.analysis", *LOWER},

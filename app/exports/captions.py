@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from app.output.text import encodable
+from app.output.text import escaped
 from estimator import Parameters, to_nested
 from recordings import Recording
 
@@ -32,7 +32,7 @@ def caption(
     entries["Parameters"] = json.dumps(to_nested(parameters))
     for side, its_parameters in sides.items():
         entries[f"Parameters of {side}"] = json.dumps(to_nested(its_parameters))
-    return {name: encodable(value) for name, value in entries.items()}
+    return {name: escaped(value) for name, value in entries.items()}
 
 
 def origin(recording: Recording) -> str:

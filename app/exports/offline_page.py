@@ -13,7 +13,7 @@ from app.browser.internals import NO_FLASH, PAGE_TITLE, PAUSE_TO_TYPE
 from app.errors import InputError
 from app.exports.captions import caption
 from app.output.checks import GENERATOR
-from app.output.text import encodable
+from app.output.text import escaped
 from app.scene.camera import Camera
 from app.scene.legend import Legend, LegendEntry
 from app.scene.legend_html import html
@@ -93,7 +93,7 @@ def offline_page(
         page = recorder.as_html(dark_mode=settings.dark)
     finally:
         server.stop()
-    title = encodable(recording.name)
+    title = escaped(recording.name)
     title += " (simulated)" if recording.simulated else ""
     page = page.replace(PAGE_TITLE, f"{GENERATOR}<title>{escape(title)}</title>", 1)
     end = page.rindex("</body>")

@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from app.analysis.survey import Survey
-from app.output.text import csv_cell, encodable
+from app.output.text import csv_cell, escaped
 from estimator import METRIC_INFO, to_nested
 from recordings import Recording
 
@@ -43,7 +43,7 @@ def _heading(recording: Recording, survey: Survey) -> str:
     )
     origin = "simulated" if recording.simulated else "measured"
     # A line break would end the comment, and what separates cells would let one begin in the name.
-    name = " ".join(re.split(r'[\s,;"]+', encodable(recording.path.name)))
+    name = " ".join(re.split(r'[\s,;"]+', escaped(recording.path.name)))
     heading = f"Tofscope; recording {name}; {origin}; {parameters}"
     if not survey.complete:
         heading += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"

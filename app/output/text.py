@@ -12,7 +12,7 @@ def utf8(text: str) -> bytes:
     return text.encode("utf-8", "backslashreplace")
 
 
-def encodable(text: str) -> str:
+def escaped(text: str) -> str:
     """Text with the escapes of `utf8`, for formats that encode it themselves."""
     return utf8(text).decode("utf-8")
 

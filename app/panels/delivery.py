@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import viser
 
 from app.browser.script import copy_link
-from app.output.text import encodable
+from app.output.text import escaped
 from app.session.outbox import Download, LinkToCopy, Message, Notice
 from app.session.tasks import TaskState
 
@@ -50,7 +50,7 @@ class Delivery:
             before.remove()
         handle = self._client.add_notification(
             notice.title,
-            encodable(notice.sentence),  # it may name a file
+            escaped(notice.sentence),  # it may name a file
             color=notice.colour,
             auto_close_seconds=notice.seconds,
         )

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.output.text import csv_cell, encodable, utf8
+from app.output.text import csv_cell, escaped, utf8
 
 
 @pytest.mark.parametrize("begin", ["=", "+", "-", "@", "\t", "＝"])
@@ -24,4 +24,4 @@ def test_a_text_is_in_one_line():
 def test_bytes_that_are_no_text_are_escapes():
     assert utf8("größe 表") == "größe 表".encode()
     assert utf8("\udcff\ud800.mcap") == rb"\udcff\ud800.mcap"
-    assert encodable("größe \udcff") == r"größe \udcff"
+    assert escaped("größe \udcff") == r"größe \udcff"
