@@ -15,8 +15,46 @@ LARGEST_RECORD = 256 * 2**20
 Writers make chunks of one to some ten MB; a larger record is left out like a broken one.
 """
 
-_BOMB, _RATIO = 2**26, 1000
+_BOMB, _RATIO = 2**22, 1000
 """Bytes above which a chunk may not be so many times as large as its compressed form."""
+
+_MOST_ANYWAY, _MOST_TIMES = 2**28, 100
+"""Bytes that a file's chunks may have in all, or else so many times the file's size."""
+
+
+class Budget:
+    """Bytes that the chunks of a file may become; those beyond are left out.
+
+    Args:
+        size: bytes of the file.
+    """
+
+    def __init__(self, size: int) -> None:
+        self._left = max(_MOST_ANYWAY, _MOST_TIMES * size)
+
+    def take(self, size: int) -> None:
+        """Take the bytes of a chunk.
+
+        Raises:
+            ValueError: there are not as many left.
+        """
+        if size > self._left:
+            raise ValueError("the file's chunks become too many times its size")
+        self._left -= size
+
+
+def claimed_size(record: bytes) -> int:
+    """Bytes that a chunk record says that it becomes; ValueError where it is too large."""
+    return _checked_size(Chunk.read(ReadDataStream(BytesIO(record))))
+
+
+def _checked_size(chunk: Chunk) -> int:
+    size = chunk.uncompressed_size
+    if size > LARGEST_RECORD:
+        raise ValueError(f"a chunk of {size} bytes is larger than {LARGEST_RECORD}")
+    if size > _BOMB and size > _RATIO * len(chunk.data):
+        raise ValueError(f"a chunk of {len(chunk.data)} bytes becomes one of {size}")
+    return size
 
 
 def chunk_data(record: bytes) -> bytes:
@@ -26,11 +64,7 @@ def chunk_data(record: bytes) -> bytes:
         ValueError: it is too large, or its records are not what its head says.
     """
     chunk = Chunk.read(ReadDataStream(BytesIO(record)))
-    size = chunk.uncompressed_size
-    if size > LARGEST_RECORD:
-        raise ValueError(f"a chunk of {size} bytes is larger than {LARGEST_RECORD}")
-    if size > _BOMB and size > _RATIO * len(chunk.data):
-        raise ValueError(f"a chunk of {len(chunk.data)} bytes becomes one of {size}")
+    size = _checked_size(chunk)
     if chunk.compression == "":
         data = chunk.data
     elif chunk.compression in _DECOMPRESS:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from recordings.chunks import LARGEST_RECORD
 from recordings.errors import BrokenFileError, MisfitError, RecordingError
 from recordings.left_out import LeftOut
 from recordings.mcap_contents import ChannelInfo
@@ -17,13 +18,18 @@ from recordings.mcap_file import McapFile
 from recordings.message_types import misfit
 from recordings.stamp_index import STAMP_INDEX, unpack
 
-_LARGEST_SCHEMA = 2**18
+_LARGEST_SCHEMA = 2**15
 """Bytes; the standard types with all that they use have some thousand."""
 _STORES = 64  # schemas whose types are kept; files have the same few
 _STAMP_END = 12
 """Bytes of a message up to the end of its header's stamp."""
 _TRIED = 100
 """First messages of a topic that are tried until one fits its type."""
+_TRIED_CHUNKS = 16
+"""Chunks that they may lie in."""
+_MOST_BYTES = {"sensor_msgs/Image": LARGEST_RECORD, "sensor_msgs/JointState": 2**20}
+_MOST_BYTES_OF_OTHERS = 2**24
+"""Bytes of a message: what is decoded element by element takes a hundred times as much."""
 
 
 class Decoder:
@@ -68,6 +74,8 @@ class Decoder:
             BrokenFileError: the file is broken there.
         """
         data = self._file.message(channel, index)
+        if len(data) > (most := _most_bytes(channel.schema_name)):
+            raise MisfitError(f"it has {len(data)} bytes, more than {most}")
         try:
             return _store_of(channel).deserialize_cdr(data, channel.schema_name)
         except Exception as error:  # rosbags' generated code can raise any error on broken bytes
@@ -100,7 +108,8 @@ class Decoder:
 
     def first_messages(self, channel: ChannelInfo, count: int) -> Iterator[Any]:
         """Those of the first messages of a channel that fit its type; none is noted."""
-        for index in range(len(self._file.table(channel)))[:count]:
+        table = self._file.table(channel)
+        for index in range(min(count, table.within_chunks(_TRIED_CHUNKS))):
             with suppress(MisfitError):
                 yield self.decode(channel, index)
 
@@ -168,6 +177,10 @@ def _store(schema_name: str, encoding: str, schema: bytes) -> Typestore:
     store = get_typestore(Stores.EMPTY)
     store.register(types)
     return store
+
+
+def _most_bytes(schema_name: str) -> int:
+    return _MOST_BYTES.get(schema_name.replace("/msg/", "/"), _MOST_BYTES_OF_OTHERS)
 
 
 def _store_of(channel: ChannelInfo) -> Typestore:

@@ -1,6 +1,10 @@
 """Messages that are left out of a recording because they cannot be used."""
 
+import re
 import threading
+
+_MOST_KINDS = 5
+"""Reasons that are told apart in one topic."""
 
 
 class LeftOut:
@@ -8,20 +12,31 @@ class LeftOut:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._messages: dict[tuple[str, str], set[int]] = {}
+        self._numbers: dict[tuple[str, str], set[int]] = {}
+        self._reasons: dict[tuple[str, str], str] = {}
 
     def add(self, topic: str, number: int, reason: str) -> None:
-        """Note a message by its number in the file; the same one counts once."""
+        """Note a message by its number in the file; the same one counts once.
+
+        Reasons that differ in numbers alone are one, and the first is told.
+        """
+        key = (topic, re.sub(r"[0-9]+", "0", reason))
         with self._lock:
-            self._messages.setdefault((topic, reason), set()).add(number)
+            if key not in self._numbers and self._count(topic) >= _MOST_KINDS:
+                key, reason = (topic, ""), "there are further reasons"
+            self._numbers.setdefault(key, set()).add(number)
+            self._reasons.setdefault(key, reason)
 
     def sentences(self) -> list[str]:
         """A sentence for each topic and reason, with the number of messages."""
         with self._lock:
             return [
-                _sentence(topic, reason, numbers)
-                for (topic, reason), numbers in self._messages.items()
+                _sentence(topic, self._reasons[topic, kind], numbers)
+                for (topic, kind), numbers in self._numbers.items()
             ]
+
+    def _count(self, topic: str) -> int:
+        return sum(of == topic for of, _ in self._numbers)
 
 
 def _sentence(topic: str, reason: str, numbers: set[int]) -> str:

@@ -53,6 +53,11 @@ class MessageTable:
     def __len__(self) -> int:
         return len(self.log_time)
 
+    def within_chunks(self, count: int) -> int:
+        """How many messages come before those of further chunks than so many."""
+        changes = np.flatnonzero(np.diff(self.chunk))
+        return len(self) if len(changes) < count else int(changes[count - 1]) + 1
+
     def without(self, rows: list[int]) -> "MessageTable":
         """The table without some of its rows."""
         columns = (self.number, self.log_time, self.chunk, self.offset)

@@ -3,6 +3,7 @@
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 
+from recordings.chunks import Budget, claimed_size
 from recordings.mcap_contents import SCANNED, Contents, add_record, record_name
 from recordings.mcap_records import BROKEN, MAGIC, RECORD_HEAD, RecordFile
 
@@ -36,8 +37,9 @@ def _indexed(file: RecordFile) -> Contents | None:
     if summary is None or not summary.chunk_indexes or summary.statistics is None:
         return None
     contents = Contents(dict(summary.channels), dict(summary.schemas))
-    read = 0
+    read, budget = 0, Budget(file.size)
     for index in summary.chunk_indexes:
+        budget.take(index.uncompressed_size)
         for offset in index.message_index_offsets.values():
             record = file.record(offset, Opcode.MESSAGE_INDEX)
             read += len(record)
@@ -61,7 +63,7 @@ def _indexed(file: RecordFile) -> Contents | None:
 
 
 def _scanned(file: RecordFile) -> Contents:
-    contents = Contents()
+    contents, budget = Contents(), Budget(file.size)
     position = len(MAGIC)
     while True:
         file.stream.seek(position)
@@ -78,7 +80,10 @@ def _scanned(file: RecordFile) -> Contents:
             return contents
         try:
             if opcode in SCANNED:
-                add_record(contents, opcode, file.content(start, length), position)
+                record = file.content(start, length)
+                if opcode == Opcode.CHUNK:
+                    budget.take(claimed_size(record))
+                add_record(contents, opcode, record, position)
             elif opcode in (Opcode.METADATA, Opcode.ATTACHMENT):
                 name = record_name(opcode, file.content(start, min(length, _NAME_WITHIN)))
                 into = contents.metadata if opcode == Opcode.METADATA else contents.attachments

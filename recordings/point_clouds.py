@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 from recordings.errors import MisfitError, few
 
 # sensor_msgs/PointField: the number of a datatype, and NumPy's letter for it.
+MOST_POINTS = 2**18
+"""Points of a cloud, as many as a recording's zones may be."""
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 
 
@@ -18,8 +20,11 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded
         MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
     names, step = [field.name for field in cloud.fields], cloud.point_step
-    if cloud.width * cloud.height == 0:
+    count = cloud.width * cloud.height
+    if count == 0:
         return {name: np.zeros(0) for name in names}
+    if count > MOST_POINTS:
+        raise MisfitError(f"it has {count} points, more than {MOST_POINTS}")
     row_step = max(cloud.row_step, cloud.width * step)
     needed = (cloud.height - 1) * row_step + cloud.width * step
     data = bytes(cloud.data)
@@ -27,9 +32,9 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded
         f.datatype in _KINDS and f.offset + np.dtype(_KINDS[f.datatype]).itemsize <= step
         for f in cloud.fields
     )
-    if len(data) < needed or not fits or len(set(names)) < len(names):
+    if not names or len(data) < needed or not fits or len(set(names)) < len(names):
         raise MisfitError(
-            f"it has {len(data)} bytes for {cloud.width * cloud.height} points of {step}, and the "
+            f"it has {len(data)} bytes for {count} points of {step}, and the "
             f"fields {few(names)}, which does not fit together"
         )
     order = ">" if cloud.is_bigendian else "<"
@@ -41,9 +46,6 @@ def fields_of(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (a decoded
             "itemsize": step,
         }
     )
-    rows = [
-        np.frombuffer(data, dtype=layout, count=cloud.width, offset=row * row_step)
-        for row in range(cloud.height)
-    ]
-    points = np.concatenate(rows)
+    shape, strides = (cloud.height, cloud.width), (row_step, step)
+    points = np.ndarray(shape, layout, data, strides=strides).reshape(-1)
     return {name: points[name] for name in names}

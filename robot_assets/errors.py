@@ -7,7 +7,7 @@ class SentenceError(Exception):
     """Error whose text is written for the user, in one line whatever names of files it holds."""
 
     def __str__(self) -> str:
-        """Its text, control characters in it as escapes."""
+        """Its text as it is told."""
         return printable(super().__str__())
 
 

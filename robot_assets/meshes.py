@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +18,8 @@ SHAPES = ("box", "cylinder", "sphere", "mesh")
 """Shapes of a URDF."""
 MOST_SHAPES = 2000
 """Meshes and shapes of a robot that are visible, and as many for collisions."""
+MOST_BYTES = 64 * 2**20
+"""Bytes of a robot's mesh files in all, each counted once."""
 _SPHERE = 1280
 """Triangles of a sphere, the simple shape with the most."""
 _FARTHEST = 1e4
@@ -40,6 +43,8 @@ class RobotMeshes:
     ) -> None:
         self._urdf = urdf
         self._places = places
+        self._files: dict[Path, trimesh.Trimesh | MeshError] = {}
+        self._bytes_left = MOST_BYTES
         # Keys end with what tells shapes of one link apart; a mesh counts once, however often used.
         self._left_out = {
             (_shape_of(link), f"unknown {i}"): f"it is none of {', '.join(SHAPES)}"
@@ -102,7 +107,9 @@ class RobotMeshes:
         """Mesh of a part in its link's frame; MeshError where it cannot be used."""
         geometry = part.geometry
         if getattr(geometry, "mesh", None) is not None:
-            mesh = read_mesh(self._places.find(geometry.mesh.filename), most)
+            mesh = self._read(self._places.find(geometry.mesh.filename))
+            if len(mesh.faces) > most:
+                raise MeshError(f"it has {len(mesh.faces)} triangles, and {most} are left for it")
             if geometry.mesh.scale is not None:
                 mesh.apply_scale(_numbers(geometry.mesh.scale, "scale", 3, signed=True))
         else:
@@ -115,6 +122,23 @@ class RobotMeshes:
         if not (np.abs(mesh.vertices) <= _FARTHEST).all():
             raise MeshError(f"it reaches farther than {_FARTHEST:g} m from its link")
         return mesh
+
+    def _read(self, path: Path) -> trimesh.Trimesh:
+        """A copy of a file's mesh; each file is read once, and MeshError is raised as often."""
+        if path not in self._files:
+            try:
+                self._bytes_left -= path.stat().st_size
+                if self._bytes_left < 0:
+                    raise MeshError(f"the robot's mesh files have more than {MOST_BYTES} bytes")
+                self._files[path] = read_mesh(path)
+            except MeshError as error:
+                self._files[path] = error
+            except OSError as error:
+                self._files[path] = MeshError(f"it cannot be read ({error.strerror})")
+        found = self._files[path]
+        if isinstance(found, MeshError):
+            raise found
+        return found.copy()
 
 
 def _shape(geometry: Any) -> trimesh.Trimesh:  # noqa: ANN401

@@ -47,6 +47,8 @@ def check_output(path: Path, kind: OutputKind, inputs: Iterable[Path] = ()) -> N
     """
     check_writable(path)
     if not path.exists():
+        if path.is_symlink():
+            raise InputError(f"{path} is a link to nothing; remove it or give another name.")
         _check_ending(path, kind.ending)
     elif path.is_file():
         if any(read.exists() and os.path.samefile(read, path) for read in inputs):
@@ -91,7 +93,18 @@ def _check_ending(path: Path, ending: str) -> None:
 
 def _is_table(path: Path) -> bool:
     content = json.loads(path.read_bytes())
-    return isinstance(content, dict) and {"parameters", "recordings", "means"} <= content.keys()
+    if not isinstance(content, dict) or not {"parameters", "recordings", "means"} <= content.keys():
+        return False
+    rows = content["recordings"]
+    return (
+        isinstance(content["parameters"], dict)
+        and isinstance(rows, list)
+        and all(isinstance(row, dict) and {"path", "pairs"} <= row.keys() for row in rows)
+    )
+
+
+def _is_parameters(path: Path) -> bool:
+    return isinstance(json.loads(path.read_bytes()), dict)
 
 
 def _is_picture(path: Path) -> bool:
@@ -109,6 +122,9 @@ def _is_page(path: Path) -> bool:
 
 TABLE = OutputKind(".json", _is_table)
 """`tofscope evaluate --json`."""
+
+PARAMETERS = OutputKind(".json", _is_parameters)
+"""A preset."""
 
 PICTURE = OutputKind(".png", _is_picture)
 """`tofscope export --screenshot`."""

@@ -9,6 +9,7 @@ from platformdirs import user_config_path
 
 from app.analysis.parameter_files import load, to_text
 from app.errors import InputError
+from app.output.checks import PARAMETERS, check_output
 from app.output.writing import write
 from estimator import Parameters
 
@@ -63,13 +64,14 @@ class Presets:
         """Keep parameters under a name, in place of those that may be there.
 
         Raises:
-            InputError: the name or the folder cannot be used.
+            InputError: the name or the folder cannot be used, or something else is there.
         """
         path = self._path(name)
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise InputError(f"The preset cannot be saved at {path} ({error.strerror}).") from error
+        check_output(path, PARAMETERS)
         write(path, to_text(parameters).encode())
 
     def delete(self, name: str) -> None:

@@ -51,6 +51,8 @@ def outcomes(
 def _on_cores(works: list[Work], jobs: int, scratch: Path) -> Iterator[Outcome]:
     from joblib import Parallel, delayed, parallel_config
 
+    # Else the process that tracks what workers use tells of it after the study was killed.
+    os.environ["PYTHONWARNINGS"] = "ignore::UserWarning"
     files = _method_files(works)
     begin = partial(_begin_worker, files, os.getpid(), scratch)
     with parallel_config("loky", inner_max_num_threads=1, initializer=begin):

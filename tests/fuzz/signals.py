@@ -192,6 +192,8 @@ def stopped(name: str, way: str, moment: float, folder: Path, found: Found) -> N
         with suppress(ProcessLookupError):
             os.kill(number, signal.SIGKILL)
     if way == "kill":
+        if said := run.said.read_text(errors="replace"):
+            found.faults.append(f"{what}: said {said!r}")
         # A process that is killed cleans up nothing: the next one does.
         Run(_COMMANDS[name], folder).until_done()
     found.faults += [f"{what}: file left: {file}" for file in run.left()]

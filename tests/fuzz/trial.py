@@ -10,15 +10,20 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
+from app.analysis import flows
 from app.analysis.notes import notes
 from app.commands import info
 from app.errors import UserError
+from estimator import Parameters
 from recordings import Recording, open_recording
 from recordings.info import file_info
 from tests.fuzz.limits import HANGING_SECONDS, MEMORY_BYTES
 from tests.fuzz.memory import forget_peak, peak_bytes
+
+_MOST_SAID = 20_000  # characters
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,10 @@ def _opened(path: Path, told: list[str]) -> None:
         recording.pair_truth(0, last) if last else None
         if recording.robot is not None:
             _ = recording.robot.visual_meshes
+        for _ in islice(flows(recording, Parameters(n=2)), 2):
+            pass
         told += notes(recording)
+        assert sum(map(len, told)) < _MOST_SAID, f"{len(told)} sentences about one file"
         for sentence in told:
             _check_sentence(sentence)
         summary = info._described(recording)

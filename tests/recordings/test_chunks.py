@@ -8,7 +8,7 @@ import pytest
 import zstandard
 
 from recordings import chunks
-from recordings.chunks import chunk_data
+from recordings.chunks import Budget, chunk_data, claimed_size
 
 _COMPRESS = {"": bytes, "zstd": zstandard.compress, "lz4": lz4.frame.compress}
 _KINDS = pytest.mark.parametrize("compression", _COMPRESS)
@@ -54,3 +54,15 @@ def test_another_compression_is_named(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(_COMPRESS, "brotli", bytes)
     with pytest.raises(ValueError, match="the compression 'brotli' is not known"):
         chunk_data(record(b"", "brotli"))
+
+
+def test_chunks_that_become_too_many_times_the_file_are_left_out(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(chunks, "_MOST_ANYWAY", 1000)
+    budget = Budget(30)  # whose chunks may have 3000 bytes
+    for _ in range(2):
+        budget.take(claimed_size(record(bytes(1400), "zstd")))
+    with pytest.raises(ValueError, match="too many times its size"):
+        budget.take(300)
+    budget.take(200)
+    with pytest.raises(ValueError, match="larger than"):
+        claimed_size(record(b"", "", size=2**60))

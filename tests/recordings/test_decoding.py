@@ -143,6 +143,18 @@ def test_messages_that_do_not_fit_their_type_are_left_out_and_counted(tmp_path: 
         decoder.readable(channel, 1)
 
 
+def test_a_message_that_is_too_large_to_decode_is_left_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr("recordings.decoding._MOST_BYTES_OF_OTHERS", 11)
+    file = headers(tmp_path / "x.mcap", [cdr(1, 0, "little")])
+    decoder = Decoder(file)
+    assert list(decoder.messages(file.channels[0])) == []
+    (sentence,) = decoder.left_out.sentences()
+    assert "more than 11." in sentence
+    file.close()
+
+
 @pytest.mark.parametrize(
     ("encoding", "schema", "fits"),
     [

@@ -52,6 +52,16 @@ def test_a_cloud_that_does_not_fit_together_is_refused(more: dict[str, object]):
         truth_fields(message(rows, **more))
 
 
+@pytest.mark.parametrize(
+    ("height", "said"), [(1, "does not fit together"), (2**32 - 1, "4294967295 points, more than")]
+)
+def test_a_cloud_without_fields_is_refused_however_tall_it_says_it_is(height: int, said: str):
+    cloud = message(np.zeros(1, dtype=[("x", "<f4")]), height=height, point_step=0, row_step=0)
+    cloud.fields, cloud.data = [], b""
+    with pytest.raises(RecordingError, match=said):
+        truth_fields(cloud)
+
+
 def test_a_field_named_twice_is_refused():
     cloud = message(np.zeros(3, dtype=[("x", "<f4"), ("y", "<f4")]))
     cloud.fields[1].name = "x"

@@ -16,3 +16,10 @@ from robot_assets.printable import printable
 )
 def test_what_a_terminal_would_obey_is_an_escape(text: str, said: str):
     assert printable(text) == said
+
+
+def test_what_is_very_long_loses_its_middle():
+    said = printable(f"The frame {'x' * 1_000_000} is left out.")
+    assert said == f"The frame {'x' * 100}...{'x' * 100} is left out."
+    assert len(printable("a " * 1_000_000)) < 300
+    assert printable("y" * 500) == "y" * 500

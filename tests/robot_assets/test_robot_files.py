@@ -252,3 +252,16 @@ def test_a_text_is_a_description(declaration):
 def test_a_broken_text_is_said_too():
     with pytest.raises(RobotError, match=r"^The robot description is not a URDF"):
         load_robot("<robot")
+
+
+def test_mesh_files_are_bounded_together_and_each_is_read_once(tmp_path, monkeypatch):
+    size = cube(tmp_path, "a.stl").stat().st_size
+    cube(tmp_path, "b.stl")
+    monkeypatch.setattr("robot_assets.meshes.MOST_BYTES", size + 1)
+    shape = '<collision><geometry><mesh filename="{}.stl"/></geometry></collision>'
+    shapes = "".join(map(shape.format, "aaab"))
+    robot = load_robot(urdf(f'<link name="body">{shapes}</link>', name="cubes"), [tmp_path])
+    assert len(robot.collision_meshes["body"].faces) == 3 * 12
+    assert (
+        f"b.stl: the robot's mesh files have more than {size + 1} bytes" in robot.mesh_warnings[0]
+    )

@@ -117,7 +117,8 @@ def test_a_study_that_is_killed_leaves_no_process_and_the_next_one_no_scratch(st
     process = study.start()
     until(study.kept, 30)
     process.kill()
-    process.communicate(timeout=10)
+    _, said = process.communicate(timeout=10)
+    assert said == ""
     # Workers end within a second, and with them the process that tracks their resources.
     until(lambda: not _running(process.pid), 5)
     with scratch_folder(study.scratch) as next_one:

@@ -43,15 +43,24 @@ def test_what_tofscope_wrote_is_replaced(kind: OutputKind, tmp_path: Path):
             b'{"n": 5}',
             b"[",
         ),
+        b'{"parameters": {}, "recordings": [1, 2], "means": "mine"}',
         b"<html><p>Made with Tofscope.</p></html>",
         b"<html><p>" + b"My notes. " * 500 + GENERATOR.encode(),
     ],
-    ids=range(9),
+    ids=range(10),
 )
 def test_what_it_did_not_write_is_refused(kind: OutputKind, content: bytes, tmp_path: Path):
     path = tmp_path / f"a{kind.ending}"
     path.write_bytes(content)
     with pytest.raises(InputError, match=r"exists and was not made by this command; remove it or"):
+        check_output(path, kind)
+
+
+@each_kind
+def test_a_link_to_nothing_makes_no_file(kind: OutputKind, tmp_path: Path):
+    path = tmp_path / f"a{kind.ending}"
+    path.symlink_to(tmp_path / "precious.txt")
+    with pytest.raises(InputError, match="is a link to nothing"):
         check_output(path, kind)
 
 

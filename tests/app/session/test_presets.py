@@ -59,3 +59,16 @@ def test_the_folder_is_the_users(monkeypatch, tmp_path):
     for value in ("", "relative"):
         monkeypatch.setenv("XDG_CONFIG_HOME", value)
         assert str(preset_folder()) == "/home/a/.config/tofscope/presets"
+
+
+@pytest.mark.parametrize("linked", [True, False])
+def test_what_is_no_preset_is_not_replaced(presets, tmp_path, linked):
+    presets.save("a", OTHER)
+    place = tmp_path / "made" / "presets" / "tie.json"
+    file = tmp_path / "measured.mcap" if linked else place
+    file.write_bytes(b"\x89MCAP0\r\n")
+    if linked:
+        place.symlink_to(file)
+    with pytest.raises(InputError, match=r"tie\.json exists and was not made by this command"):
+        presets.save("tie", OTHER)
+    assert file.read_bytes() == b"\x89MCAP0\r\n"
