@@ -104,7 +104,8 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
         rig = replace(rig, model=rig.model.of_depth_images())
     found = recorded_sensors(topics, decoder, rig, own_rig)
     if not found:
-        raise RecordingError(" ".join([_nothing_to_estimate_from(file, topics), *damaged]))
+        nothing = _nothing_to_estimate_from(file, topics)
+        raise RecordingError(" ".join([nothing, *_about_pieces(file), *damaged]))
     if rig is not None:
         _check_rig(file, rig, found)
     if not decoder.has_stamp_index:
@@ -170,11 +171,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
 
 def _about_file(file: McapFile, decoder: Decoder, table: FrameTable, sensors: int) -> list[str]:
     """Warnings about the file as a whole."""
-    warnings: list[str] = []
-    if file.cut_short:
-        warnings.append("The file is cut short; what it holds up to there is used.")
-    if file.broken_chunks:
-        warnings.append(f"Broken pieces of the file, {file.broken_chunks} of them, are left out.")
+    warnings = _about_pieces(file)
     if decoder.doubted_index and not (file.cut_short or file.broken_chunks):
         warnings.append(
             "The file's index of stamps does not fit its messages; it is not used, and their "
@@ -185,6 +182,16 @@ def _about_file(file: McapFile, decoder: Decoder, table: FrameTable, sensors: in
             f"A frame holds {table.completeness * sensors:.1f} of the {sensors} sensors on "
             f"average; their readings are not taken at the same time, or many are lost."
         )
+    return warnings
+
+
+def _about_pieces(file: McapFile) -> list[str]:
+    """Warnings about parts of the file that cannot be used."""
+    warnings: list[str] = []
+    if file.cut_short:
+        warnings.append("The file is cut short; what it holds up to there is used.")
+    if file.broken_chunks:
+        warnings.append(f"Broken pieces of the file, {file.broken_chunks} of them, are left out.")
     return warnings
 
 

@@ -100,7 +100,7 @@ HANDMADE: dict[str, Handmade] = {
     # Chunks.
     "chunk_zstd_2_GB": bomb("zstd", 1, 2000 * MB, "Broken pieces of the file, 1 of them"),
     "chunks_zstd_60_MB": bomb("zstd", 100, 60 * MB, "Broken pieces of the file, 100 of them"),
-    "chunk_zstd_100MB": bomb("zstd", 2, 100 * MB),
+    "chunk_zstd_100MB": bomb("zstd", 2, 100 * MB, "Broken pieces of the file, 2 of them"),
     "chunk_lz4_100MB": bomb("lz4", 2, 100 * MB),
     # Images.
     "image_rows": picture("of /eye/depth is left out", height=2**32 - 1),
