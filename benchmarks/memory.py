@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from app.scene.clouds_view import TARGET_NODE
+from app.scene.clouds_view import STATIC_TARGET_NODE
 from benchmarks.serving import Served, machine, serving, wait_until, write_long_recording
 from tests.app.wire_client import WireClient
 
@@ -24,7 +24,9 @@ class _Count:
         self.frames = 0
 
     def listen(self, _: float, message: dict[str, Any]) -> None:
-        moved = message["type"] == "SceneNodeUpdateMessage" and message["name"] == TARGET_NODE
+        moved = (
+            message["type"] == "SceneNodeUpdateMessage" and message["name"] == STATIC_TARGET_NODE
+        )
         self.frames += moved and "points" in message["updates"]
 
 

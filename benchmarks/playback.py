@@ -11,7 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from app.scene.clouds_view import TARGET_NODE
+from app.scene.clouds_view import STATIC_TARGET_NODE
 from benchmarks.serving import Served, machine, serving, wait_until, write_long_recording
 from tests.app.wire_client import WireClient
 
@@ -27,7 +27,7 @@ class _Frames:
         self.numbers: list[int] = []
 
     def listen(self, now: float, message: dict[str, Any]) -> None:
-        if message["type"] == "SceneNodeUpdateMessage" and message["name"] == TARGET_NODE:
+        if message["type"] == "SceneNodeUpdateMessage" and message["name"] == STATIC_TARGET_NODE:
             if "points" in message["updates"]:
                 self.clouds.append(now)
         elif message["type"] == "GuiUpdateMessage":

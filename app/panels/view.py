@@ -12,7 +12,7 @@ from app.panels.panel import Panel, PanelContext
 from app.panels.triggers import post_chosen
 from app.scene.lens import Lens, aspect_of
 from app.scene.palettes import PALETTES
-from app.scene.settings import ARROW_COLOURS, LAYERS
+from app.scene.settings import ARROW_COLOURS, LAYERS, STATIC_SCENE
 from app.scene.theme import apply_theme
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
 from app.session.command import Background, LatestWins, Repeated
@@ -126,6 +126,12 @@ class ViewPanel(Panel):
 
     def _add_colours(self) -> None:
         colours = self._gui.add_dropdown("Colours", PALETTES, initial_value=self._settings.colours)
+        static = self._gui.add_dropdown(
+            "Static scene",
+            STATIC_SCENE,
+            initial_value=self._settings.static_scene,
+            hint="Points of both clouds that do not move.",
+        )
         arrows = self._gui.add_dropdown(
             "Arrows show",
             ARROW_COLOURS,
@@ -139,6 +145,7 @@ class ViewPanel(Panel):
         toggle_legend = self._gui.add_command("Legend", icon=Icon.LIST_DETAILS)
         toggle_legend.on_trigger(lambda _: self._post(ToggleLegend()))
         self._connect(colours, "colours", PALETTES)
+        self._connect(static, "static_scene", STATIC_SCENE)
         self._connect(arrows, "arrow_colours", ARROW_COLOURS)
         self._connect(dark, "dark", (False, True))
         self._connect(legend, "legend", (False, True))
@@ -146,12 +153,13 @@ class ViewPanel(Panel):
     def _add_sizes(self) -> None:
         arrow_scale = self._gui.add_slider(
             "Arrow scale",
-            min=0.05,
-            max=2.0,
-            step=0.05,
+            min=0.5,
+            max=10.0,
+            step=0.5,
             initial_value=self._settings.arrow_scale,
-            marks=((0.05, "0.05"), (2.0, "2 s")),
-            hint="An arrow is as long as the distance moved in this time [s].",
+            marks=((0.5, "x 0.5"), (10.0, "x 10")),
+            hint="Length of an arrow, as a multiple of the displacement over the pair: at 1 it "
+            "ends where its point went.",
         )
         point_size = self._gui.add_slider(
             "Point size",
@@ -167,7 +175,7 @@ class ViewPanel(Panel):
         # Coroutines run at once, before the control's value can change again.
         @arrow_scale.on_update
         async def _(_: viser.GuiEvent) -> None:
-            self._post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.05), 2.0)}))
+            self._post(ChangeView({"arrow_scale": min(max(arrow_scale.value, 0.5), 10.0)}))
 
         @point_size.on_update
         async def _(_: viser.GuiEvent) -> None:

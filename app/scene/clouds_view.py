@@ -7,51 +7,65 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from app.scene.arrows import Arrows
 from app.scene.colours import Colour
 from app.scene.palettes import Palette
 from app.scene.scene_root import FIXED
 
 SOURCE_NODE = f"{FIXED}/source"
 TARGET_NODE = f"{FIXED}/target"
+STATIC_SOURCE_NODE = f"{FIXED}/static_source"
+STATIC_TARGET_NODE = f"{FIXED}/static_target"
 FLOW_NODE = f"{FIXED}/flow"
 SECOND_FLOW_NODE = f"{FIXED}/second_flow"
 TRUTH_NODE = f"{FIXED}/truth"
 GHOST_NODE = f"{FIXED}/ghost"
 
-_HEAD = 0.011  # maximum length of an arrow's head, as a fraction of the picture's height
-_SHAFT, _TRUTH_SHAFT = 0.0013, 0.003  # radii of shafts, as fractions of the picture's height
-_HEAD_WIDTH, _TRUTH_HEAD_WIDTH = 0.32, 0.5  # radii of heads, as fractions of their length
-_NONE = np.zeros((0, 2, 3), dtype=np.float32)
+_HEAD, _TRUTH_HEAD = 0.011, 0.022  # length of an arrow's head, of the picture's height
+_SHAFT, _TRUTH_SHAFT = 0.0024, 0.005  # thickness of shafts, of the picture's height
+_GHOST_SIZE = 0.8  # of a point that moves
 
 
 class CloudsView:
     """Draws source, target, flow and truth of one pair."""
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
+        self._static_target = _add_cloud(scene, STATIC_TARGET_NODE)
+        self._static_source = _add_cloud(scene, STATIC_SOURCE_NODE)
         self._target = _add_cloud(scene, TARGET_NODE)
         self._source = _add_cloud(scene, SOURCE_NODE)
         self._ghost = _add_cloud(scene, GHOST_NODE)
-        self._all = (self._target, self._source, self._ghost)
-        self._flow = scene.add_arrows(FLOW_NODE, _NONE, palette.flow)
-        self._second_flow = scene.add_arrows(SECOND_FLOW_NODE, _NONE, palette.second)
-        self._truth = scene.add_arrows(TRUTH_NODE, _NONE, palette.truth)
-        self._height = 2.5
+        self._static = (self._static_target, self._static_source)
+        self._all = (*self._static, self._target, self._source, self._ghost)
+        self._flow = Arrows(scene, FLOW_NODE)
+        self._second_flow = Arrows(scene, SECOND_FLOW_NODE)
+        self._truth = Arrows(scene, TRUTH_NODE)
+        self._static_size = 1.0
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
         """Apply a palette to the nodes of a single colour."""
-        self._target.colors = np.array(palette.target, dtype=np.uint8)
         self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
-        self._truth.colors = np.array(palette.truth, dtype=np.uint8)
 
-    def show_source(self, points: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
-        """Draw the source (N, 3) in one colour (3,) or in a colour per point (N, 3)."""
-        self._source.points = points.astype(np.float32)
-        self._source.colors = colours
+    def show_source(
+        self,
+        points: NDArray[np.float64],
+        colours: NDArray[np.uint8],
+        moving: NDArray[np.bool_],
+    ) -> None:
+        """Draw the source (N, 3) in colours (N, 3), larger where a mask (N,) says that it moves."""
+        _show(self._source, points[moving], colours[moving])
+        _show(self._static_source, points[~moving], colours[~moving])
 
-    def show_target(self, points: NDArray[np.float64]) -> None:
-        """Draw the target (M, 3)."""
-        self._target.points = points.astype(np.float32)
+    def show_target(
+        self,
+        points: NDArray[np.float64],
+        colours: NDArray[np.uint8],
+        moving: NDArray[np.bool_],
+    ) -> None:
+        """Draw the target (M, 3); arguments as of `show_source`."""
+        _show(self._target, points[moving], colours[moving])
+        _show(self._static_target, points[~moving], colours[~moving])
 
     def show_ghost(self, points: NDArray[np.float64]) -> None:
         """Draw the moving source points (N, 3) displaced by their true motion."""
@@ -60,64 +74,66 @@ class CloudsView:
     def show_flow(
         self,
         points: NDArray[np.float64],
-        velocity: NDArray[np.float64],
-        seconds: float,
+        displacement: NDArray[np.float64],
         colours: NDArray[np.uint8],
     ) -> None:
-        """Draw arrows whose length is the distance covered in `seconds`.
+        """Draw an arrow from each point by its displacement.
 
         Args:
-            points: (N, 3) tails of the arrows, metres.
-            velocity: (N, 3) m/s; rows of NaN have no arrow.
-            seconds: above 0.
+            points: (N, 3) metres.
+            displacement: (N, 3) metres; rows of NaN have no arrow.
             colours: (N, 3).
         """
-        drawn = has_arrow(points, velocity, seconds)
-        self._draw(self._flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
-        self._flow.colors = colours[drawn]
+        drawn = has_arrow(points, displacement)
+        segments = arrows(points, displacement)
+        self._flow.show(segments, colours[drawn])
 
     def show_second_flow(
-        self,
-        points: NDArray[np.float64],
-        velocity: NDArray[np.float64],
-        seconds: float,
-        colour: Colour,
+        self, points: NDArray[np.float64], displacement: NDArray[np.float64], colour: Colour
     ) -> None:
         """Draw a second flow in one colour; otherwise as `show_flow`."""
-        self._draw(self._second_flow, arrows(points, velocity, seconds), _HEAD_WIDTH)
-        self._second_flow.colors = np.array(colour, dtype=np.uint8)
+        segments = arrows(points, displacement)
+        self._second_flow.show(segments, np.array(colour, dtype=np.uint8))
 
     def show_truth(
-        self, start: NDArray[np.float64], velocity: NDArray[np.float64] | None, seconds: float
+        self,
+        start: NDArray[np.float64],
+        displacement: NDArray[np.float64] | None,
+        colour: Colour,
     ) -> None:
-        """Draw the moving object's true velocity (3,) from `start` (3,), or none."""
-        if velocity is None:
-            self._truth.points = _NONE
-        else:
-            arrow = arrows(start[None], velocity[None], seconds)
-            self._draw(self._truth, arrow, _TRUTH_HEAD_WIDTH)
+        """Draw the moving object's true displacement (3,) from `start` (3,), or none."""
+        shown = np.zeros((0, 3)) if displacement is None else displacement[None]
+        segments = arrows(start[None][: len(shown)], shown)
+        self._truth.show(segments, np.array(colour, dtype=np.uint8))
 
     @property
     def radius(self) -> float:
-        """Radius of a point, metres."""
-        return self._target.point_size
+        """Radius of a point that moves, metres."""
+        return self._source.point_size
 
     def fit(self, height: float, point_size: float) -> None:
         """Scale points and arrows to the size of the picture.
 
         Args:
             height: of the picture at the distance of the look-at point, metres.
-            point_size: diameter of a point, as a fraction of the picture's height.
+            point_size: diameter of a point that moves, as a fraction of the picture's height.
         """
-        self._height = height
         radius = point_size * height / 2
         self._source.point_size = self._target.point_size = radius
-        self._ghost.point_size = 1.2 * radius
-        self._flow.shaft_radius = self._second_flow.shaft_radius = _SHAFT * height
-        self._truth.shaft_radius = _TRUTH_SHAFT * height
-        for node in (self._flow, self._second_flow):
-            _fit_head(node, _HEAD_WIDTH, _HEAD * height)
-        _fit_head(self._truth, _TRUTH_HEAD_WIDTH, _HEAD * height)
+        self._ghost.point_size = _GHOST_SIZE * radius
+        self._size_static()
+        for flow in (self._flow, self._second_flow):
+            flow.fit(_SHAFT * height, _HEAD * height, gap=radius)
+        self._truth.fit(_TRUTH_SHAFT * height, _TRUTH_HEAD * height, gap=0.0)
+
+    def size_static(self, part: float) -> None:
+        """Set the size of points that do not move, as a part of the others'."""
+        self._static_size = part
+        self._size_static()
+
+    def _size_static(self) -> None:
+        for cloud in self._static:
+            cloud.point_size = self._static_size * self._source.point_size
 
     @contextmanager
     def clipped(
@@ -147,27 +163,26 @@ class CloudsView:
             for cloud, points, colours in kept:
                 cloud.points, cloud.colors = points, colours
 
-    def _draw(
-        self, node: viser.ArrowsHandle, segments: NDArray[np.float64], head_width: float
-    ) -> None:
-        node.points = segments.astype(np.float32)
-        _fit_head(node, head_width, _HEAD * self._height)
+
+def arrows(points: NDArray[np.float64], displacement: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Beginnings and ends (A, 2, 3) of all arrows that are finite and longer than 0."""
+    drawn = has_arrow(points, displacement)
+    return np.stack([points[drawn], points[drawn] + displacement[drawn]], axis=1)
 
 
-def arrows(
-    points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
-) -> NDArray[np.float64]:
-    """Tails and tips (A, 2, 3) of all arrows that are finite and longer than 0."""
-    drawn = has_arrow(points, velocity, seconds)
-    return np.stack([points[drawn], points[drawn] + seconds * velocity[drawn]], axis=1)
-
-
-def has_arrow(
-    points: NDArray[np.float64], velocity: NDArray[np.float64], seconds: float
-) -> NDArray[np.bool_]:
+def has_arrow(points: NDArray[np.float64], displacement: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Mask (N,) of the points whose arrow is finite and longer than 0."""
-    long = np.linalg.norm(velocity * seconds, axis=1) > 1e-6
-    return np.isfinite(points).all(axis=1) & long
+    return np.isfinite(points).all(axis=1) & (np.linalg.norm(displacement, axis=1) > 1e-6)
+
+
+def _show(
+    cloud: viser.PointCloudHandle, points: NDArray[np.float64], colours: NDArray[np.uint8]
+) -> None:
+    drawn = points.astype(np.float32)
+    if not np.array_equal(cloud.points, drawn):
+        cloud.points = drawn
+    if not np.array_equal(cloud.colors, colours):
+        cloud.colors = colours
 
 
 def _add_cloud(scene: viser.SceneApi, name: str) -> viser.PointCloudHandle:
@@ -180,11 +195,3 @@ def _add_cloud(scene: viser.SceneApi, name: str) -> viser.PointCloudHandle:
         point_shading="flat",
         precision="float32",
     )
-
-
-def _fit_head(node: viser.ArrowsHandle, width: float, longest: float) -> None:
-    if len(node.points) > 0:
-        # All heads are equally long: short enough for the shortest arrow to keep a shaft.
-        shortest = float(np.linalg.norm(node.points[:, 1] - node.points[:, 0], axis=1).min())
-        node.head_length = min(longest, 0.4 * shortest)
-        node.head_radius = max(width * node.head_length, 1.6 * node.shaft_radius)

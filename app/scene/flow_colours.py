@@ -10,6 +10,7 @@ from app.scene.settings import BY_CLUSTER, BY_DIRECTION, BY_SPEED, ViewSettings
 from estimator import Label
 
 _SPEED_STEP = 0.1  # m/s
+_KEPT = 0.45  # of a colour that stands back
 
 WHEEL: tuple[Colour, ...] = (
     (0, 145, 170),
@@ -24,14 +25,20 @@ WHEEL: tuple[Colour, ...] = (
 
 
 def source_colours(pair: Pair, palette: Palette) -> NDArray[np.uint8]:
-    """Colours of a pair's source points: (N, 3) by label, or one (3,) without an estimate."""
-    if pair.flow is None or len(pair.flow.label) == 0:
-        return np.array(palette.source, dtype=np.uint8)
+    """Colours (N, 3) of a pair's source points by label, all the same without an estimate."""
+    if pair.source is None or pair.flow is None:
+        size = len(pair.source.points) if pair.source else 0
+        return np.tile(np.array(palette.source, dtype=np.uint8), (size, 1))
     colours = np.zeros((3, 3), dtype=np.uint8)
     colours[Label.UNASSIGNED] = palette.unassigned
     colours[Label.STATIONARY] = palette.stationary
     colours[Label.MOVING] = palette.source
     return colours[pair.flow.label]
+
+
+def faded(colours: NDArray[np.uint8], ground: Colour) -> NDArray[np.uint8]:
+    """Colours (N, 3) of what stands back, blended with the background."""
+    return (_KEPT * colours + (1 - _KEPT) * np.array(ground)).round().astype(np.uint8)
 
 
 def speed_limit(pair: Pair, before: float) -> float:

@@ -7,15 +7,16 @@ import numpy as np
 from app.analysis.comparison import A, B
 from app.analysis.pairs import Pair
 from app.scene.colours import Colour
-from app.scene.flow_colours import WHEEL
+from app.scene.flow_colours import WHEEL, faded
 from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
     BY_SPEED,
-    STATIONARY,
-    UNASSIGNED,
+    DIMMED,
+    HIDDEN,
     ViewSettings,
 )
+from app.scene.theme import background
 from estimator import ClusterResult, Label
 
 _MOST_CLUSTERS = 6
@@ -78,15 +79,15 @@ def legend(
     ramp: Ramp | None = None
     if "Flow" in layers and side:
         entries += [
-            LegendEntry(palette.side(s), f"Flow of {s}: {_length(settings)}") for s in (A, B)
+            LegendEntry(palette.side(s), f"Flow of {s}: {_length(pair, settings)}") for s in (A, B)
         ]
     elif "Flow" in layers and pair.flow is not None:
         flow, ramp = _flow(pair, settings, speed_limit)
         entries += flow
     if "Truth" in layers and pair.object_velocity is not None:
-        entries.append(LegendEntry(palette.truth, "True velocity"))
+        entries.append(LegendEntry(palette.truth, "True displacement"))
     if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:
-        entries.append(LegendEntry(palette.ghost, "Source moved by the truth"))
+        entries.append(LegendEntry(palette.ghost, "Truth ghost"))
     if picked is not None:
         entries.append(LegendEntry(palette.picked, f"Picked: cluster {picked.index}"))
     return Legend(tuple(entries), ramp, settings.dark)
@@ -100,11 +101,18 @@ def _source(pair: Pair, settings: ViewSettings, side: str | None) -> list[Legend
     if pair.flow is None:
         return [LegendEntry(palette.source, source)]
     entries = [LegendEntry(palette.source, f"{source}: moving")]
-    if STATIONARY in layers:
-        entries.append(LegendEntry(palette.stationary, f"{source}: stationary"))
-    if UNASSIGNED in layers:
-        entries.append(LegendEntry(palette.unassigned, f"{source}: unassigned"))
+    if settings.static_scene != HIDDEN:
+        entries.append(LegendEntry(_static(palette.stationary, settings), f"{source}: stationary"))
+        entries.append(LegendEntry(_static(palette.unassigned, settings), f"{source}: unassigned"))
     return entries
+
+
+def _static(colour: Colour, settings: ViewSettings) -> Colour:
+    """Colour of points that do not move, as they are drawn."""
+    if settings.static_scene != DIMMED:
+        return colour
+    r, g, b = faded(np.array([colour]), background(settings.dark))[0].tolist()
+    return r, g, b
 
 
 def _flow(
@@ -123,8 +131,9 @@ def _flow(
         more = len(entries) - _MOST_CLUSTERS
         rest = [LegendEntry(palette.unassigned, f"Flow: {more} more clusters")] if more > 0 else []
         return entries[:_MOST_CLUSTERS] + rest, None
-    return [LegendEntry(palette.flow, f"Flow: {_length(settings)}")], None
+    return [LegendEntry(palette.flow, f"Flow: {_length(pair, settings)}")], None
 
 
-def _length(settings: ViewSettings) -> str:
-    return f"motion in {settings.arrow_scale:g} s"
+def _length(pair: Pair, settings: ViewSettings) -> str:
+    times = "" if settings.arrow_scale == 1.0 else f"{settings.arrow_scale:g} x "
+    return f"{times}displacement in {pair.interval:.2f} s"

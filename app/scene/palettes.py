@@ -82,9 +82,9 @@ _CATEGORIES = (
     (86, 180, 233),
     (120, 94, 50),
 )
-# Roughly even in perceived lightness; on white it stops before yellow becomes invisible.
-_RAMP = ((62, 30, 120), (52, 94, 160), (22, 140, 130), (90, 180, 60), (225, 190, 20))
-_BRIGHT_RAMP = ((110, 80, 200), (70, 130, 210), (40, 180, 165), (130, 215, 90), (253, 225, 60))
+# Even in perceived lightness, and far from the colours of all other layers: no red, blue, orange.
+_RAMP = ((72, 20, 92), (64, 60, 118), (40, 104, 128), (52, 150, 130), (150, 200, 90))
+_BRIGHT_RAMP = ((128, 92, 176), (96, 124, 176), (72, 164, 172), (104, 204, 160), (196, 240, 130))
 
 _PAPER_LIGHT = Palette(
     source=SOURCE,

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.comparison import A, B
+from app.analysis.moving_targets import moving_targets
 from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.canvas import Canvas
@@ -15,20 +16,23 @@ from app.scene.clouds_view import (
     GHOST_NODE,
     SECOND_FLOW_NODE,
     SOURCE_NODE,
+    STATIC_SOURCE_NODE,
+    STATIC_TARGET_NODE,
     TARGET_NODE,
     TRUTH_NODE,
     CloudsView,
 )
 from app.scene.first_view import View
-from app.scene.flow_colours import arrow_colours, source_colours, speed_limit
+from app.scene.flow_colours import arrow_colours, faded, source_colours, speed_limit
 from app.scene.legend import Legend, legend
 from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.scene_root import AXES, GRID, SceneRoot, upright
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
-from app.scene.settings import STATIONARY, UNASSIGNED, ViewSettings
+from app.scene.settings import DIMMED, HIDDEN, SHOWN, ViewSettings
 from app.scene.shapes import robot_shape
+from app.scene.theme import background
 from app.scene.truth import ghost, truth_arrow
 from app.scene.views import ROBOT, THREE_D, Projection, named_view
 from estimator import ClusterResult, Label
@@ -38,8 +42,8 @@ _NODES = {
     "Robot": (ROOT,),
     "Sensors": (SENSORS,),
     "Frustums": (FRUSTUMS,),
-    "Source": (SOURCE_NODE,),
-    "Target": (TARGET_NODE,),
+    "Source": (SOURCE_NODE, STATIC_SOURCE_NODE),
+    "Target": (TARGET_NODE, STATIC_TARGET_NODE),
     "Flow": (FLOW_NODE, SECOND_FLOW_NODE),
     "Truth": (TRUTH_NODE,),
     "Truth ghost": (GHOST_NODE,),
@@ -47,8 +51,8 @@ _NODES = {
 }
 """{layer: nodes that it shows or hides}."""
 
-_LABELS = {STATIONARY: Label.STATIONARY, UNASSIGNED: Label.UNASSIGNED}
-"""{layer: label of the source points that it shows or hides}."""
+_STATIC_SIZE = {SHOWN: 0.75, DIMMED: 0.5, HIDDEN: 0.5}
+"""Size of points that do not move, as a part of those that do."""
 
 _REFERENCE_HEIGHT = 720  # pixels, the height of the picture that sizes in pixels refer to
 
@@ -77,6 +81,7 @@ class Scene:
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
         self._clouds = CloudsView(canvas.scene, settings.palette)
+        self._clouds.size_static(_STATIC_SIZE[settings.static_scene])
         self._lens: Lens | None = None
         self._show_layers()
 
@@ -186,24 +191,23 @@ class Scene:
         """
         before, self._shown, self._second, self._side = self._shown, pair, second, side
         if before is None or before.target is not pair.target:
-            self._clouds.show_target(pair.target.points)
             if self._robot:
                 self._robot.show(pair.link_poses)
             if self._sensors:
                 self._sensors.show(pair.target.T_fixed_sensor)
         self._speed_limit = speed_limit(pair, self._speed_limit)
         self.mark(pair, picked)
-        self._show_flow(pair)
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
-        """Draw a cluster of a pair as picked, or none, and the other source points as usual."""
+        """Draw a cluster of a pair as picked and the others dimmed, or none and all as usual."""
         self._marked = cluster
         if self._selection is None and cluster is not None:
             palette = self._settings.palette
             self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
         if self._selection:
             self._selection.show(pair, cluster, self._R_drawing_fixed[2])
-        self._show_source(pair)
+        self._show_clouds(pair)
+        self._show_flow(pair)
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
         """Transform a point or direction (3,) of the drawing into the recording's fixed frame."""
@@ -217,10 +221,11 @@ class Scene:
             self._root.paint(settings.palette)
             if self._selection:
                 self._selection.paint(settings.palette)
+        self._clouds.size_static(_STATIC_SIZE[settings.static_scene])
         if settings.point_size != before.point_size and self._lens:
             self._fit(self._lens)
         if self._shown:
-            self._show_source(self._shown)
+            self._show_clouds(self._shown)
             self._show_flow(self._shown)
         if settings.layers != before.layers:
             self._show_layers()
@@ -244,24 +249,47 @@ class Scene:
         if self._selection:
             self._selection.thicken(factor)
 
-    def _show_source(self, pair: Pair) -> None:
-        """Draw the source coloured by label, without hidden labels and picked points."""
+    def _show_clouds(self, pair: Pair) -> None:
+        """Draw both clouds, what does not move as the settings say, without picked points."""
+        palette, picked = self._settings.palette, self._marked
+        moving = moving_targets(pair) if pair.flow else np.ones(len(pair.target.points), bool)
+        if picked is not None:
+            moving = np.zeros(len(moving), dtype=bool)
+            moving[picked.target] = True
+        target = np.tile(np.array(palette.target, np.uint8), (len(moving), 1))
+        drawn, target = self._static(moving, target)
+        self._clouds.show_target(pair.target.points[drawn], target[drawn], moving[drawn])
+
         if pair.source is None:
-            self._clouds.show_source(np.zeros((0, 3)), np.zeros(3, dtype=np.uint8))
+            none = np.zeros((0, 3))
+            self._clouds.show_source(none, none.astype(np.uint8), np.zeros(0, dtype=bool))
             return
-        points, colours = pair.source.points, source_colours(pair, self._settings.palette)
-        if pair.flow is not None and colours.ndim == 2:
-            hidden = [
-                label for layer, label in _LABELS.items() if layer not in self._settings.layers
-            ]
-            drawn = ~np.isin(pair.flow.label, hidden)
-            if self._marked is not None:
-                drawn[self._marked.source] = False  # they are drawn as picked
-            points, colours = points[drawn], colours[drawn]
-        self._clouds.show_source(points, colours)
+        moving = pair.flow.moving if pair.flow else np.ones(len(pair.source.points), bool)
+        if picked is not None:
+            moving = np.zeros(len(moving), dtype=bool)
+        drawn, source = self._static(moving, source_colours(pair, palette))
+        if picked is not None:
+            drawn[picked.source] = False  # they are drawn as picked
+        self._clouds.show_source(pair.source.points[drawn], source[drawn], moving[drawn])
+
+    def _static(
+        self, moving: NDArray[np.bool_], colours: NDArray[np.uint8]
+    ) -> tuple[NDArray[np.bool_], NDArray[np.uint8]]:
+        """Which points (N,) are drawn, and their colours (N, 3): fainter where they are static.
+
+        Args:
+            moving: (N,) whether a point moves, or is of the picked cluster.
+            colours: (N, 3) of all points.
+        """
+        if self._settings.static_scene == HIDDEN:
+            return moving.copy(), colours
+        if self._settings.static_scene == DIMMED or self._marked is not None:
+            faint = faded(colours, background(self._settings.dark))
+            colours = np.where(moving[:, None], colours, faint)
+        return np.ones(len(moving), dtype=bool), colours
 
     def _show_flow(self, pair: Pair) -> None:
-        seconds, palette = self._settings.arrow_scale, self._settings.palette
+        scale, palette = self._settings.arrow_scale, self._settings.palette
         seeing: list[int] = []
         if pair.source and pair.flow:
             if self._second is None:
@@ -272,23 +300,31 @@ class Scene:
                 colours = np.tile(
                     np.array(palette.side(self._side), np.uint8), (len(pair.flow.label), 1)
                 )
-            self._clouds.show_flow(pair.source.points, pair.flow.velocity, seconds, colours)
+            if self._marked is not None:
+                faint = faded(colours, background(self._settings.dark))
+                of_picked = pair.flow.cluster == self._marked.index
+                colours = np.where(of_picked[:, None], colours, faint)
+            displacement = scale * pair.interval * pair.flow.velocity
+            self._clouds.show_flow(pair.source.points, displacement, colours)
             seeing = pair.source.sensor[pair.flow.label == Label.MOVING].tolist()
         else:
             none = np.zeros((0, 3))
-            self._clouds.show_flow(none, none, seconds, none.astype(np.uint8))
+            self._clouds.show_flow(none, none, none.astype(np.uint8))
         if self._sensors:
             self._sensors.highlight(seeing, palette)
-        self._show_second_flow(seconds)
-        self._clouds.show_truth(*truth_arrow(pair, self._R_drawing_fixed[2]), seconds)
+        self._show_second_flow(scale)
+        start, velocity = truth_arrow(pair, self._R_drawing_fixed[2])
+        truth = None if velocity is None else scale * pair.interval * velocity
+        self._clouds.show_truth(start, truth, palette.truth)
         self._clouds.show_ghost(ghost(pair))
 
-    def _show_second_flow(self, seconds: float) -> None:
-        second, points, velocity = self._second, np.zeros((0, 3)), np.zeros((0, 3))
+    def _show_second_flow(self, scale: float) -> None:
+        second, points, displacement = self._second, np.zeros((0, 3)), np.zeros((0, 3))
         if second and second.source and second.flow:
-            points, velocity = second.source.points, second.flow.velocity
+            points = second.source.points
+            displacement = scale * second.interval * second.flow.velocity
         colour = self._settings.palette.side(B if self._side == A else A)
-        self._clouds.show_second_flow(points, velocity, seconds, colour)
+        self._clouds.show_second_flow(points, displacement, colour)
 
     def _show_layers(self) -> None:
         for layer, names in _NODES.items():

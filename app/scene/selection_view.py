@@ -14,7 +14,7 @@ from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"
 
-_LARGER = 1.5  # radius of a picked point, relative to the others
+_LARGER = 1.2  # radius of a picked point, relative to others that move
 _THICKNESS = 1.5  # pixels, of the box's lines
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))

@@ -4,15 +4,11 @@ from dataclasses import dataclass
 
 from app.scene.palettes import PAPER, Palette, palette
 
-STATIONARY, UNASSIGNED = "Stationary points", "Unassigned points"
-
 LAYERS = (
     "Robot",
     "Sensors",
     "Frustums",
     "Source",
-    STATIONARY,
-    UNASSIGNED,
     "Target",
     "Flow",
     "Truth",
@@ -20,6 +16,14 @@ LAYERS = (
     "Grid and axes",
 )
 """Layers that can be hidden, in the order of the list on the page."""
+
+SHOWN, DIMMED, HIDDEN = "Shown", "Dimmed", "Hidden"
+STATIC_SCENE = (SHOWN, DIMMED, HIDDEN)
+"""How points of both clouds that do not move are drawn."""
+
+SHOWN, DIMMED, HIDDEN = "Shown", "Dimmed", "Hidden"
+STATIC_SCENE = (SHOWN, DIMMED, HIDDEN)
+"""How points of both clouds that do not move are drawn."""
 
 ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER = "One colour", "Speed", "Direction", "Cluster"
 ARROW_COLOURS = (ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER)
@@ -31,8 +35,10 @@ class ViewSettings:
     """Settings of the drawing.
 
     Attributes:
-        arrow_scale: seconds; an arrow's length is the distance covered in this time.
-        point_size: diameter of a point at the look-at point, pixels of a picture 720 pixels high.
+        static_scene: how points that do not move are drawn, one of `STATIC_SCENE`.
+        arrow_scale: an arrow's length is so many times the displacement over the pair.
+        point_size: diameter of a point that moves, at the look-at point, pixels of a picture 720
+            pixels high.
         arrow_colours: quantity that an arrow's colour encodes, one of `ARROW_COLOURS`.
         colours: name of the palette.
         dark: whether the page is dark.
@@ -40,8 +46,9 @@ class ViewSettings:
         layers: that are visible.
     """
 
-    arrow_scale: float = 0.5
-    point_size: float = 5.0
+    static_scene: str = DIMMED
+    arrow_scale: float = 1.0
+    point_size: float = 7.0
     arrow_colours: str = ONE_COLOUR
     colours: str = PAPER
     dark: bool = False

@@ -7,15 +7,13 @@ from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from app.scene.first_view import View, first_view, near_corners, percentile_corners
-from app.scene.settings import ViewSettings
 from estimator import Label
 
 THREE_D, TOP, FRONT, ROBOT, FIT = "3D", "Top", "Front", "Robot", "Fit"
 VIEWS = (THREE_D, TOP, FRONT, ROBOT, FIT)
-"""Slanted; from above; from the front; from a sensor; all points, in the current direction."""
+"""Slanted; from above; from the front; from a sensor; what moves, else all, as seen before."""
 
 _MARGIN = 1.12
-_ARROW_SCALE = ViewSettings().arrow_scale
 _LEAN = 1e-3  # tilt of the view from above, which keeps its up direction defined
 
 
@@ -73,7 +71,8 @@ def named_view(
         owner = (np.cumsum(placed) - 1)[pair.target.sensor]
         return _from_robot(points, owner, sensors, axes, moving)
     if name == FIT:
-        return _everything(points, sensors, projection, before or slanted)
+        seen = np.vstack([moving, tips]) if len(moving) else np.vstack([points, sensors])
+        return _fitted(seen, projection, before or slanted)
     box = np.vstack(
         [*near_corners(points, sensors), *percentile_corners(moving), *percentile_corners(tips)]
     )
@@ -89,12 +88,12 @@ def named_view(
 
 
 def _arrows(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Moving source points (M, 3), and the tips of their arrows at the default scale."""
+    """Moving source points (M, 3), and where they went."""
     if pair.source is None or pair.flow is None:
         return np.zeros((0, 3)), np.zeros((0, 3))
     moving = pair.flow.label == Label.MOVING
     points = pair.source.points[moving]
-    return points, points + _ARROW_SCALE * pair.flow.velocity[moving]
+    return points, points + pair.interval * pair.flow.velocity[moving]
 
 
 def _from_robot(
@@ -130,15 +129,12 @@ def _from_robot(
     return View(sensors[best] + 0.01 * axes[best], sensors[best] + depth * axes[best])
 
 
-def _everything(
-    points: NDArray[np.float64], sensors: NDArray[np.float64], projection: Projection, before: View
-) -> View:
-    # Outliers would push the camera away.
-    box = np.percentile(points, [2, 98], axis=0) if len(points) else np.zeros((0, 3))
-    seen = np.vstack([box, sensors])
-    if len(seen) == 0:
+def _fitted(points: NDArray[np.float64], projection: Projection, before: View) -> View:
+    """View of points (N, 3) in the current direction."""
+    if len(points) == 0:
         return before
-    low, high = seen.min(axis=0), seen.max(axis=0)
+    # Outliers would push the camera away.
+    low, high = np.percentile(points, [2, 98], axis=0)
     centre, size = (low + high) / 2, float(np.linalg.norm(high - low))
     direction = before.position - before.look_at
     direction = direction / np.linalg.norm(direction)

@@ -35,7 +35,8 @@ def test_delta_at_its_largest_leaves_no_arrow_and_back_brings_them_again(tab: Ta
     tab.set_slider("δ", "Home")
     tab.set_slider("δ", "ArrowRight", times=8)
     tab.until(lambda: tab.value("δ") == 0.04 and len(tab.arrows()) == len(before))
-    np.testing.assert_array_equal(tab.arrows(), before)
+    # Where they end: where their shafts begin follows the size of points in the window.
+    np.testing.assert_array_equal(tab.arrows()[:, 1], before[:, 1])
 
 
 def test_n_changes_the_source_and_not_the_target(tab: Tab):

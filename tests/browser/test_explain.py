@@ -38,7 +38,8 @@ def pixels(tab: Tab, points: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def background(tab: Tab) -> tuple[float, float]:
     """A pixel of the scene as far from every point as there is one."""
-    points = np.vstack([tab.points("source"), tab.points("target")])
+    clouds = ("source", "target", "static_source", "static_target")
+    points = np.vstack([tab.points(cloud) for cloud in clouds])
     taken = pixels(tab, points)
     free = [(x, y) for x in range(80, 500, 10) for y in range(220, 520, 10)]
     return max(free, key=lambda place: np.linalg.norm(taken - place, axis=1).min())
@@ -49,7 +50,7 @@ def point_set(points: NDArray[np.float64]) -> set[tuple[float, ...]]:
 
 
 def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
-    moving = tab.arrows()[:, 0]
+    moving = tab.points("source")
     tab.page.get_by_text("Explain", exact=True).click()
     tab.page.mouse.click(*pixel(tab, moving[len(moving) // 2]))
     tab.until(lambda: tab.has_text("Moving: fitness"))
@@ -61,7 +62,7 @@ def test_a_click_on_a_point_picks_its_cluster_and_one_beside_it_none(tab: Tab):
 
 
 def test_a_click_on_a_point_unfolds_the_story_and_another_leaves_it_open(tab: Tab):
-    moving, note = tab.arrows()[:, 0], tab.page.get_by_text("Moving: fitness")
+    moving, note = tab.points("source"), tab.page.get_by_text("Moving: fitness")
     x, y = pixel(tab, moving[len(moving) // 2])
     assert not tab.page.get_by_text("Click on a point in the scene").is_visible()
     tab.page.mouse.click(x, y)
@@ -74,9 +75,10 @@ def test_a_click_on_a_point_unfolds_the_story_and_another_leaves_it_open(tab: Ta
 def test_a_click_on_a_row_of_the_table_picks_its_cluster_and_another_lets_it_go(tab: Tab):
     tab.page.get_by_text("Explain", exact=True).click()
     row = tab.page.locator("tr[data-sets]", has_text="moving")
+    moving = point_set(tab.points("source"))
     row.click()
     tab.until(lambda: tab.has_text("Moving: fitness"))
-    tab.until(lambda: point_set(tab.arrows()[:, 0]) <= point_set(tab.points("picked/points")))
+    tab.until(lambda: moving <= point_set(tab.points("picked/points")))
     row.click()
     tab.until(lambda: not tab.has_text("Moving: fitness"))
     cluster = tab.row("Cluster").locator("input").first
@@ -85,7 +87,7 @@ def test_a_click_on_a_row_of_the_table_picks_its_cluster_and_another_lets_it_go(
 
 def test_turning_the_camera_picks_nothing(tab: Tab):
     tab.page.get_by_text("Explain", exact=True).click()
-    x, y = pixel(tab, tab.arrows()[0, 0])
+    x, y = pixel(tab, tab.points("source")[0])
     tab.page.mouse.move(x, y)
     tab.page.mouse.down()
     tab.page.mouse.move(x + 60, y + 20, steps=5)

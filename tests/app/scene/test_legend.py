@@ -12,13 +12,16 @@ from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
     BY_SPEED,
+    HIDDEN,
     LAYERS,
-    STATIONARY,
+    SHOWN,
     ViewSettings,
 )
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 from tests.app.fake_session import context, snapshot
+
+FLOW = "Flow: displacement in 0.53 s"
 
 
 @pytest.fixture(scope="module")
@@ -36,14 +39,23 @@ def test_it_says_what_is_drawn(pair):
         "Source: stationary",
         "Source: unassigned",
         "Target",
-        "Flow: motion in 0.5 s",
-        "True velocity",
-        "Source moved by the truth",
+        FLOW,
+        "True displacement",
+        "Truth ghost",
     ]
-    fewer = frozenset(LAYERS) - {STATIONARY, "Target", "Flow"}
-    assert not {"Source: stationary", "Target", "Flow: motion in 0.5 s"} & set(
-        texts(pair, ViewSettings(layers=fewer))
-    )
+    fewer = ViewSettings(layers=frozenset(LAYERS) - {"Target", "Flow"}, static_scene=HIDDEN)
+    assert not {"Source: stationary", "Target", FLOW} & set(texts(pair, fewer))
+    assert FLOW.replace(": ", ": 2 x ") in texts(pair, ViewSettings(arrow_scale=2.0))
+
+
+def test_static_points_have_the_colour_that_is_drawn(pair):
+    def colour(settings):
+        return next(e.colour for e in legend(pair, settings, 0.3).entries if "stationary" in e.text)
+
+    stationary = ViewSettings().palette.stationary
+    assert colour(ViewSettings(static_scene=SHOWN)) == stationary
+    assert sum(colour(ViewSettings())) > sum(stationary)
+    assert sum(colour(ViewSettings(dark=True))) < sum(ViewSettings(dark=True).palette.stationary)
 
 
 def test_colours_of_arrows_are_said_with_units_and_limits(pair):
@@ -60,9 +72,9 @@ def test_colours_of_arrows_are_said_with_units_and_limits(pair):
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
     colours = {entry.text: entry.colour for entry in legend(pair, ViewSettings(), 0.3, A).entries}
     palette = ViewSettings().palette
-    assert colours["Flow of A: motion in 0.5 s"] == palette.flow
-    assert colours["Flow of B: motion in 0.5 s"] == palette.second
-    assert "Flow: motion in 0.5 s" not in colours
+    assert colours["Flow of A: displacement in 0.53 s"] == palette.flow
+    assert colours["Flow of B: displacement in 0.53 s"] == palette.second
+    assert FLOW not in colours
     assert "Source of A: moving" in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
     assert not [

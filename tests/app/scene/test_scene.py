@@ -4,8 +4,17 @@ import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
+from app.scene.arrows import linear
 from app.scene.camera import Camera
-from app.scene.clouds_view import FLOW_NODE, GHOST_NODE, SOURCE_NODE, TARGET_NODE
+from app.scene.clouds_view import (
+    FLOW_NODE,
+    GHOST_NODE,
+    SOURCE_NODE,
+    STATIC_SOURCE_NODE,
+    STATIC_TARGET_NODE,
+    TARGET_NODE,
+)
+from app.scene.flow_colours import faded
 from app.scene.palettes import COLOUR_BLIND, PAPER, palette
 from app.scene.scene import Scene
 from app.scene.scene_root import FIXED, GRID
@@ -13,8 +22,9 @@ from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
     BY_SPEED,
-    LAYERS,
-    STATIONARY,
+    DIMMED,
+    HIDDEN,
+    SHOWN,
     ViewSettings,
 )
 from estimator import Label, Parameters
@@ -38,28 +48,62 @@ def scene(client, pair):
 
 
 def colours(client, node):
-    return np.unique(np.atleast_2d(client.node(node).colors), axis=0).tolist()
+    return np.unique(client.node(node).colors.reshape(-1, 3), axis=0).tolist()
 
 
-def test_labels_are_told_apart(scene, client, pair):
-    drawn = client.node(SOURCE_NODE).colors
-    labels = pair.flow.label
-    assert (drawn[labels == Label.MOVING] == COLOURS.source).all()
-    assert (drawn[labels == Label.STATIONARY] == COLOURS.stationary).all()
-    unassigned = Estimates().estimated(fake_opened(), 20, Parameters(n_min=200))
-    scene.show(unassigned)
-    assert colours(client, SOURCE_NODE) == [list(COLOURS.unassigned)]
+def faint(*wanted):
+    return sorted(faded(np.array(wanted), (255, 255, 255)).tolist())
+
+
+def test_what_moves_stands_out_from_a_dimmed_scene(scene, client, pair):
+    moving = pair.flow.moving
+    np.testing.assert_allclose(client.node(SOURCE_NODE).points, pair.source.points[moving])
+    assert len(client.node(STATIC_SOURCE_NODE).points) == (~moving).sum()
+    assert colours(client, SOURCE_NODE) == [list(COLOURS.source)]
+    assert colours(client, TARGET_NODE) == [list(COLOURS.target)]
+    assert colours(client, STATIC_SOURCE_NODE) == faint(COLOURS.stationary)
+    assert colours(client, STATIC_TARGET_NODE) == faint(COLOURS.target)
+    sizes = [client.node(node).point_size for node in (STATIC_SOURCE_NODE, SOURCE_NODE)]
+    assert sizes[0] < 0.6 * sizes[1]
+    (cluster,) = [c for c in pair.flow.clusters if c.label == Label.MOVING]
+    assert len(client.node(TARGET_NODE).points) == len(cluster.target)
+
+
+def test_without_an_estimate_nothing_stands_back(scene, client, pair):
     scene.show(replace(pair, flow=None))
+    assert len(client.node(STATIC_SOURCE_NODE).points) == 0
+    assert len(client.node(TARGET_NODE).points) == len(pair.target.points)
     assert colours(client, SOURCE_NODE) == [list(COLOURS.source)]
 
 
-def test_stationary_points_can_be_switched_off_alone(scene, client, pair):
-    scene.change(ViewSettings(layers=frozenset(LAYERS) - {STATIONARY}))
-    moving = pair.source.points[pair.flow.label == Label.MOVING]
-    np.testing.assert_allclose(client.node(SOURCE_NODE).points, moving, atol=1e-6)
-    assert client.node(SOURCE_NODE).colors.shape == (100, 3)
-    scene.change(ViewSettings())
-    assert len(client.node(SOURCE_NODE).points) == 500
+def test_where_nothing_moves_all_is_static(scene, client):
+    scene.show(Estimates().estimated(fake_opened(), 20, Parameters(n_min=200)))
+    assert len(client.node(SOURCE_NODE).points) == len(client.node(TARGET_NODE).points) == 0
+    assert colours(client, STATIC_SOURCE_NODE) == faint(COLOURS.unassigned)
+
+
+def test_the_static_scene_can_be_shown_or_hidden(scene, client, pair):
+    scene.change(ViewSettings(static_scene=HIDDEN))
+    for node in (STATIC_SOURCE_NODE, STATIC_TARGET_NODE):
+        assert len(client.node(node).points) == 0
+    assert len(client.node(SOURCE_NODE).points) == pair.flow.moving.sum()
+    scene.change(ViewSettings(static_scene=SHOWN))
+    assert colours(client, STATIC_SOURCE_NODE) == [list(COLOURS.stationary)]
+    dimmed = client.node(STATIC_SOURCE_NODE).point_size
+    scene.change(ViewSettings(static_scene=DIMMED))
+    assert client.node(STATIC_SOURCE_NODE).point_size < dimmed
+
+
+def test_a_picked_cluster_dims_all_others(scene, client, pair):
+    still = next(c for c in pair.flow.clusters if c.label != Label.MOVING)
+    scene.change(ViewSettings(static_scene=SHOWN))
+    scene.mark(pair, still)
+    assert len(client.node(TARGET_NODE).points) == len(still.target)
+    assert len(client.node(SOURCE_NODE).points) == 0  # the picked ones are drawn as such
+    assert faint(COLOURS.source)[0] in colours(client, STATIC_SOURCE_NODE)
+    assert colours(client, FLOW_NODE) == linear(np.array(faint(COLOURS.flow))).tolist()
+    scene.mark(pair, None)
+    assert colours(client, FLOW_NODE) == [linear(np.array(COLOURS.flow)).tolist()]
 
 
 def test_sensors_that_see_something_moving_are_highlighted(scene, client, pair):
@@ -88,9 +132,9 @@ def test_arrows_tell_what_they_are_asked_for(scene, client, pair, shown):
     cluster[moving[:50]] += 1
     flow = replace(pair.flow, velocity=velocity, cluster=cluster)
     scene.show(replace(pair, flow=flow))
-    assert colours(client, FLOW_NODE) == [list(COLOURS.flow)]
+    assert colours(client, FLOW_NODE) == [linear(np.array(COLOURS.flow)).tolist()]
     scene.change(ViewSettings(arrow_colours=shown))
-    drawn = client.node(FLOW_NODE).colors
+    drawn = client.node(FLOW_NODE).colors[:, 0]
     assert len(np.unique(drawn[:50], axis=0)) == len(np.unique(drawn[50:], axis=0)) == 1
     assert (drawn[0] != drawn[50]).any()
 
@@ -107,10 +151,8 @@ def test_another_palette_paints_everything(scene, client):
     scene.change(ViewSettings(colours=COLOUR_BLIND, dark=True))
     other = palette(COLOUR_BLIND, dark=True)
     assert colours(client, TARGET_NODE) == [list(other.target)]
-    assert colours(client, FLOW_NODE) == [list(other.flow)]
-    assert sorted(colours(client, SOURCE_NODE)) == sorted(
-        map(list, [other.source, other.stationary])
-    )
+    assert colours(client, FLOW_NODE) == [linear(np.array(other.flow)).tolist()]
+    assert colours(client, SOURCE_NODE) == [list(other.source)]
     assert client.node(GRID).cell_color == other.grid[0]
 
 
@@ -121,8 +163,8 @@ def test_points_keep_their_size_in_the_picture_however_far_the_camera_is(scene, 
         scene.adapt_sizes()
         sizes.append(client.node(SOURCE_NODE).point_size / distance)
     assert sizes[0] == pytest.approx(sizes[1])
-    # 5 of 720 pixels are a diameter of this part of the picture's height.
-    assert sizes[0] == pytest.approx(5 / 720 * np.tan(client.camera.fov / 2))
+    # 7 of 720 pixels are a diameter of this part of the picture's height.
+    assert sizes[0] == pytest.approx(7 / 720 * np.tan(client.camera.fov / 2))
 
 
 def test_turning_the_camera_sends_nothing(scene, client):
@@ -139,7 +181,7 @@ def test_a_restored_camera_has_its_sizes_at_once(client, pair):
     scene.open(fake_recording())
     scene.show(pair)
     scene.set_camera(Camera((0.0, 2.0, 0.0), (0.0, 0.0, 0.0), 0.5))
-    assert client.node(SOURCE_NODE).point_size == pytest.approx(5 / 720 * 2 * np.tan(0.25))
+    assert client.node(SOURCE_NODE).point_size == pytest.approx(7 / 720 * 2 * np.tan(0.25))
 
 
 def test_a_frame_with_a_picked_cluster_sends_the_source_once(scene, client, pair, monkeypatch):

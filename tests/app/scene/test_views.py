@@ -6,7 +6,6 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.scene.first_view import View
 from app.scene.lens import Lens
-from app.scene.settings import ViewSettings
 from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Projection, named_view
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
@@ -46,7 +45,7 @@ def test_what_moves_is_in_the_picture(pair, name, aspect):
 def test_the_ends_of_arrows_are_in_the_picture(pair, name):
     slow, fast = pair, replace(pair, flow=replace(pair.flow, velocity=40 * pair.flow.velocity))
     moving = pair.source.points[pair.flow.moving]
-    tips = moving + ViewSettings().arrow_scale * fast.flow.velocity[pair.flow.moving]
+    tips = moving + pair.interval * fast.flow.velocity[pair.flow.moving]
     assert in_picture(named_view(name, slow, np.eye(3), FILM), tips).mean() < 0.1
     view = named_view(name, fast, np.eye(3), FILM)
     assert in_picture(view, tips).mean() > 0.9
@@ -75,10 +74,14 @@ def test_from_the_robot_a_sensor_looks_at_what_moves(pair):
     np.testing.assert_allclose(view.look_at, np.median(moving, axis=0))
 
 
-def test_fit_shows_everything_and_keeps_the_direction(pair):
+@pytest.mark.parametrize("moves", [True, False])
+def test_fit_shows_what_moves_or_else_all_and_keeps_the_direction(pair, moves):
     before = View(np.array([3.0, 1.0, 2.0]), np.array([0.0, 1.0, 0.0]))
-    view = named_view(FIT, pair, np.eye(3), FILM, before)
-    assert in_picture(view, pair.target.points).mean() > 0.95
+    shown = pair if moves else replace(pair, flow=None)
+    view = named_view(FIT, shown, np.eye(3), FILM, before)
+    seen = pair.source.points[pair.flow.moving] if moves else pair.target.points
+    assert in_picture(view, seen).mean() > 0.95
+    assert (in_picture(view, pair.target.points).mean() > 0.95) is not moves
     direction, kept = view.look_at - view.position, before.look_at - before.position
     np.testing.assert_allclose(
         direction / np.linalg.norm(direction), kept / np.linalg.norm(kept), atol=1e-9

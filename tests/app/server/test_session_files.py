@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 from app.analysis.parameter_files import from_text
+from app.scene.arrows import linear
 from app.scene.palettes import PAPER, palette
 from app.scene.scene_root import FIXED
 from app.server.session import Session
@@ -49,7 +50,7 @@ def test_both_views_of_a_size_are_one_picture_that_says_what_it_shows(session, c
     # The window is 60 pixels high: in a larger picture points have to be as much larger.
     assert asked[-1][2] > 10 * before
     until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(before))
-    assert len(points(client, "source")) == 500
+    assert len(points(client, "source")) + len(points(client, "static_source")) == 500
 
 
 def test_saved_parameters_are_those_in_use(session, client):
@@ -66,19 +67,23 @@ def test_a_white_picture_of_a_dark_page_has_the_colours_for_white(session, clien
     client.change("With legend", False)
     client.change("Background", "White")
     flow = f"{FIXED}/flow"
-    dark = palette(PAPER, dark=True).flow
-    until(lambda: tuple(client.node(flow).colors[0]) == dark)
+    white, dark = (tuple(linear(np.array(palette(PAPER, dark=d).flow))) for d in (False, True))
+
+    def colour():
+        return tuple(client.node(flow).colors[0, 0])
+
+    until(lambda: colour() == dark)
     seen = []
 
     def render(height, width, **_):
-        seen.append(tuple(client.node(flow).colors[0]))
+        seen.append(colour())
         return np.zeros((height, width, 4), dtype=np.uint8)
 
     client.get_render = render
     client.press("Save screenshot")
     until(lambda: client.downloads)
-    assert set(seen) == {palette(PAPER, dark=False).flow}
-    until(lambda: tuple(client.node(flow).colors[0]) == dark)
+    assert set(seen) == {white}
+    until(lambda: colour() == dark)
     assert Image.open(io.BytesIO(client.downloads[0][1])).getpixel((5, 5)) == (255, 255, 255)
     client.change("Background", "As on the screen")
     client.press("Save screenshot")
