@@ -43,28 +43,24 @@ class Budget:
         self._left -= size
 
 
-def claimed_size(record: bytes) -> int:
-    """Bytes that a chunk record says that it becomes; ValueError where it is too large."""
-    return _checked_size(Chunk.read(ReadDataStream(BytesIO(record))))
-
-
-def _checked_size(chunk: Chunk) -> int:
-    size = chunk.uncompressed_size
-    if size > LARGEST_RECORD:
-        raise ValueError(f"a chunk of {size} bytes is larger than {LARGEST_RECORD}")
-    if size > _BOMB and size > _RATIO * len(chunk.data):
-        raise ValueError(f"a chunk of {len(chunk.data)} bytes becomes one of {size}")
-    return size
-
-
-def chunk_data(record: bytes) -> bytes:
+def chunk_data(record: bytes, budget: Budget | None = None) -> bytes:
     """Decompress a chunk record; its size and its CRC are checked.
+
+    Args:
+        record: its content.
+        budget: of the file, from which its size is taken; None where that was done before.
 
     Raises:
         ValueError: it is too large, or its records are not what its head says.
     """
     chunk = Chunk.read(ReadDataStream(BytesIO(record)))
-    size = _checked_size(chunk)
+    size = chunk.uncompressed_size
+    if size > LARGEST_RECORD:
+        raise ValueError(f"a chunk of {size} bytes is larger than {LARGEST_RECORD}")
+    if size > _BOMB and size > _RATIO * len(chunk.data):
+        raise ValueError(f"a chunk of {len(chunk.data)} bytes becomes one of {size}")
+    if budget is not None:
+        budget.take(size)
     if chunk.compression == "":
         data = chunk.data
     elif chunk.compression in _DECOMPRESS:

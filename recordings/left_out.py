@@ -12,8 +12,7 @@ class LeftOut:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._numbers: dict[tuple[str, str], set[int]] = {}
-        self._reasons: dict[tuple[str, str], str] = {}
+        self._told: dict[tuple[str, str], tuple[str, set[int]]] = {}
 
     def add(self, topic: str, number: int, reason: str) -> None:
         """Note a message by its number in the file; the same one counts once.
@@ -22,21 +21,20 @@ class LeftOut:
         """
         key = (topic, re.sub(r"[0-9]+", "0", reason))
         with self._lock:
-            if key not in self._numbers and self._count(topic) >= _MOST_KINDS:
+            if key not in self._told and self._count(topic) >= _MOST_KINDS:
                 key, reason = (topic, ""), "there are further reasons"
-            self._numbers.setdefault(key, set()).add(number)
-            self._reasons.setdefault(key, reason)
+            self._told.setdefault(key, (reason, set()))[1].add(number)
 
     def sentences(self) -> list[str]:
         """A sentence for each topic and reason, with the number of messages."""
         with self._lock:
             return [
-                _sentence(topic, self._reasons[topic, kind], numbers)
-                for (topic, kind), numbers in self._numbers.items()
+                _sentence(topic, reason, numbers)
+                for (topic, _), (reason, numbers) in self._told.items()
             ]
 
     def _count(self, topic: str) -> int:
-        return sum(of == topic for of, _ in self._numbers)
+        return sum(of == topic for of, _ in self._told)
 
 
 def _sentence(topic: str, reason: str, numbers: set[int]) -> str:

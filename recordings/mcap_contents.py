@@ -11,7 +11,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Schema
 from numpy.typing import NDArray
 
-from recordings.chunks import chunk_data
+from recordings.chunks import Budget, chunk_data
 from recordings.mcap_records import RECORD_HEAD
 
 MESSAGE_HEAD = struct.Struct("<HIQQ")
@@ -111,8 +111,18 @@ SCANNED = {Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE, Opcode.CHUNK}
 """Records of the data section that are read as a whole when it is scanned."""
 
 
-def add_record(contents: Contents, opcode: int, record: bytes, position: int) -> None:
-    """Add one record of the data section; `position` is its offset in the file."""
+def add_record(
+    contents: Contents, opcode: int, record: bytes, position: int, budget: Budget | None = None
+) -> None:
+    """Add one record of the data section.
+
+    Args:
+        contents: to add it to.
+        opcode: its kind.
+        record: its content.
+        position: its offset in the file.
+        budget: of the file, from which a chunk's size is taken.
+    """
     if opcode == Opcode.SCHEMA:
         schema = Schema.read(ReadDataStream(BytesIO(record)))
         contents.schemas[schema.id] = schema
@@ -123,7 +133,7 @@ def add_record(contents: Contents, opcode: int, record: bytes, position: int) ->
         channel_id, _, log_time, _ = MESSAGE_HEAD.unpack_from(record)
         contents.add_message(channel_id, log_time, UNCHUNKED, position)
     elif opcode == Opcode.CHUNK:
-        _add_chunk(contents, chunk_data(record), position)
+        _add_chunk(contents, chunk_data(record, budget), position)
 
 
 def record_name(opcode: int, start: bytes) -> str:

@@ -3,7 +3,7 @@
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
 
-from recordings.chunks import Budget, claimed_size
+from recordings.chunks import Budget
 from recordings.mcap_contents import SCANNED, Contents, add_record, record_name
 from recordings.mcap_records import BROKEN, MAGIC, RECORD_HEAD, RecordFile
 
@@ -80,10 +80,7 @@ def _scanned(file: RecordFile) -> Contents:
             return contents
         try:
             if opcode in SCANNED:
-                record = file.content(start, length)
-                if opcode == Opcode.CHUNK:
-                    budget.take(claimed_size(record))
-                add_record(contents, opcode, record, position)
+                add_record(contents, opcode, file.content(start, length), position, budget)
             elif opcode in (Opcode.METADATA, Opcode.ATTACHMENT):
                 name = record_name(opcode, file.content(start, min(length, _NAME_WITHIN)))
                 into = contents.metadata if opcode == Opcode.METADATA else contents.attachments

@@ -26,17 +26,58 @@ _SHAFT, _TRUTH_SHAFT = 0.0024, 0.005  # thickness of shafts, of the picture's he
 _GHOST_SIZE = 0.8  # of a point that moves
 
 
+class Cloud:
+    """A cloud in two nodes: the points that stand out, and the others.
+
+    Args:
+        scene: to draw in.
+        node: of the points that stand out.
+        static_node: of the others.
+    """
+
+    def __init__(self, scene: viser.SceneApi, node: str, static_node: str) -> None:
+        self._static = _add_cloud(scene, static_node)
+        self._moving = _add_cloud(scene, node)
+
+    @property
+    def nodes(self) -> tuple[viser.PointCloudHandle, viser.PointCloudHandle]:
+        """Both nodes."""
+        return self._static, self._moving
+
+    @property
+    def radius(self) -> float:
+        """Radius of a point that stands out, metres."""
+        return self._moving.point_size
+
+    def show(
+        self,
+        points: NDArray[np.float64],
+        colours: NDArray[np.uint8],
+        moving: NDArray[np.bool_],
+    ) -> None:
+        """Draw points (N, 3) in colours (N, 3); a mask (N,) says which stand out."""
+        _show(self._moving, points[moving], colours[moving])
+        _show(self._static, points[~moving], colours[~moving])
+
+    def fit(self, radius: float, static_part: float) -> None:
+        """Set the radius of points that stand out in metres, and the others' as a part of it."""
+        self._moving.point_size = radius
+        self._static.point_size = static_part * radius
+
+
 class CloudsView:
-    """Draws source, target, flow and truth of one pair."""
+    """Draws source, target, flow and truth of one pair.
+
+    Attributes:
+        source: P_{k-n}.
+        target: P_k.
+    """
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
-        self._static_target = _add_cloud(scene, STATIC_TARGET_NODE)
-        self._static_source = _add_cloud(scene, STATIC_SOURCE_NODE)
-        self._target = _add_cloud(scene, TARGET_NODE)
-        self._source = _add_cloud(scene, SOURCE_NODE)
+        self.target = Cloud(scene, TARGET_NODE, STATIC_TARGET_NODE)
+        self.source = Cloud(scene, SOURCE_NODE, STATIC_SOURCE_NODE)
         self._ghost = _add_cloud(scene, GHOST_NODE)
-        self._static = (self._static_target, self._static_source)
-        self._all = (*self._static, self._target, self._source, self._ghost)
+        self._all = (*self.target.nodes, *self.source.nodes, self._ghost)
         self._flow = Arrows(scene, FLOW_NODE)
         self._second_flow = Arrows(scene, SECOND_FLOW_NODE)
         self._truth = Arrows(scene, TRUTH_NODE)
@@ -46,26 +87,6 @@ class CloudsView:
     def paint(self, palette: Palette) -> None:
         """Apply a palette to the nodes of a single colour."""
         self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
-
-    def show_source(
-        self,
-        points: NDArray[np.float64],
-        colours: NDArray[np.uint8],
-        moving: NDArray[np.bool_],
-    ) -> None:
-        """Draw the source (N, 3) in colours (N, 3), larger where a mask (N,) says that it moves."""
-        _show(self._source, points[moving], colours[moving])
-        _show(self._static_source, points[~moving], colours[~moving])
-
-    def show_target(
-        self,
-        points: NDArray[np.float64],
-        colours: NDArray[np.uint8],
-        moving: NDArray[np.bool_],
-    ) -> None:
-        """Draw the target (M, 3); arguments as of `show_source`."""
-        _show(self._target, points[moving], colours[moving])
-        _show(self._static_target, points[~moving], colours[~moving])
 
     def show_ghost(self, points: NDArray[np.float64]) -> None:
         """Draw the moving source points (N, 3) displaced by their true motion."""
@@ -109,7 +130,7 @@ class CloudsView:
     @property
     def radius(self) -> float:
         """Radius of a point that moves, metres."""
-        return self._source.point_size
+        return self.source.radius
 
     def fit(self, height: float, point_size: float) -> None:
         """Scale points and arrows to the size of the picture.
@@ -119,9 +140,8 @@ class CloudsView:
             point_size: diameter of a point that moves, as a fraction of the picture's height.
         """
         radius = point_size * height / 2
-        self._source.point_size = self._target.point_size = radius
+        self._size(radius)
         self._ghost.point_size = _GHOST_SIZE * radius
-        self._size_static()
         for flow in (self._flow, self._second_flow):
             flow.fit(_SHAFT * height, _HEAD * height, gap=radius)
         self._truth.fit(_TRUTH_SHAFT * height, _TRUTH_HEAD * height, gap=0.0)
@@ -129,11 +149,11 @@ class CloudsView:
     def size_static(self, part: float) -> None:
         """Set the size of points that do not move, as a part of the others'."""
         self._static_size = part
-        self._size_static()
+        self._size(self.radius)
 
-    def _size_static(self) -> None:
-        for cloud in self._static:
-            cloud.point_size = self._static_size * self._source.point_size
+    def _size(self, radius: float) -> None:
+        for cloud in (self.source, self.target):
+            cloud.fit(radius, self._static_size)
 
     @contextmanager
     def clipped(

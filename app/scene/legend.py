@@ -16,7 +16,6 @@ from app.scene.settings import (
     HIDDEN,
     ViewSettings,
 )
-from app.scene.theme import background
 from estimator import ClusterResult, Label
 
 _MOST_CLUSTERS = 6
@@ -111,7 +110,7 @@ def _static(colour: Colour, settings: ViewSettings) -> Colour:
     """Colour of points that do not move, as they are drawn."""
     if settings.static_scene != DIMMED:
         return colour
-    r, g, b = faded(np.array([colour]), background(settings.dark))[0].tolist()
+    r, g, b = faded(np.array([colour]), settings.dark)[0].tolist()
     return r, g, b
 
 

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.comparison import A, B
-from app.analysis.moving_targets import moving_targets
 from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.canvas import Canvas
@@ -22,17 +21,17 @@ from app.scene.clouds_view import (
     TRUTH_NODE,
     CloudsView,
 )
+from app.scene.drawn_clouds import STATIC_SIZE, drawn_source, drawn_target
 from app.scene.first_view import View
-from app.scene.flow_colours import arrow_colours, faded, source_colours, speed_limit
+from app.scene.flow_colours import arrow_colours, faded, speed_limit
 from app.scene.legend import Legend, legend
 from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
 from app.scene.scene_root import AXES, GRID, SceneRoot, upright
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
-from app.scene.settings import DIMMED, HIDDEN, SHOWN, ViewSettings
+from app.scene.settings import ViewSettings
 from app.scene.shapes import robot_shape
-from app.scene.theme import background
 from app.scene.truth import ghost, truth_arrow
 from app.scene.views import ROBOT, THREE_D, Projection, named_view
 from estimator import ClusterResult, Label
@@ -50,9 +49,6 @@ _NODES = {
     "Grid and axes": (GRID, AXES),
 }
 """{layer: nodes that it shows or hides}."""
-
-_STATIC_SIZE = {SHOWN: 0.75, DIMMED: 0.5, HIDDEN: 0.5}
-"""Size of points that do not move, as a part of those that do."""
 
 _REFERENCE_HEIGHT = 720  # pixels, the height of the picture that sizes in pixels refer to
 
@@ -81,7 +77,7 @@ class Scene:
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
         self._clouds = CloudsView(canvas.scene, settings.palette)
-        self._clouds.size_static(_STATIC_SIZE[settings.static_scene])
+        self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         self._lens: Lens | None = None
         self._show_layers()
 
@@ -221,7 +217,8 @@ class Scene:
             self._root.paint(settings.palette)
             if self._selection:
                 self._selection.paint(settings.palette)
-        self._clouds.size_static(_STATIC_SIZE[settings.static_scene])
+        if settings.static_scene != before.static_scene:
+            self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         if settings.point_size != before.point_size and self._lens:
             self._fit(self._lens)
         if self._shown:
@@ -251,42 +248,11 @@ class Scene:
 
     def _show_clouds(self, pair: Pair) -> None:
         """Draw both clouds, what does not move as the settings say, without picked points."""
-        palette, picked = self._settings.palette, self._marked
-        moving = moving_targets(pair) if pair.flow else np.ones(len(pair.target.points), bool)
-        if picked is not None:
-            moving = np.zeros(len(moving), dtype=bool)
-            moving[picked.target] = True
-        target = np.tile(np.array(palette.target, np.uint8), (len(moving), 1))
-        drawn, target = self._static(moving, target)
-        self._clouds.show_target(pair.target.points[drawn], target[drawn], moving[drawn])
-
-        if pair.source is None:
-            none = np.zeros((0, 3))
-            self._clouds.show_source(none, none.astype(np.uint8), np.zeros(0, dtype=bool))
-            return
-        moving = pair.flow.moving if pair.flow else np.ones(len(pair.source.points), bool)
-        if picked is not None:
-            moving = np.zeros(len(moving), dtype=bool)
-        drawn, source = self._static(moving, source_colours(pair, palette))
-        if picked is not None:
-            drawn[picked.source] = False  # they are drawn as picked
-        self._clouds.show_source(pair.source.points[drawn], source[drawn], moving[drawn])
-
-    def _static(
-        self, moving: NDArray[np.bool_], colours: NDArray[np.uint8]
-    ) -> tuple[NDArray[np.bool_], NDArray[np.uint8]]:
-        """Which points (N,) are drawn, and their colours (N, 3): fainter where they are static.
-
-        Args:
-            moving: (N,) whether a point moves, or is of the picked cluster.
-            colours: (N, 3) of all points.
-        """
-        if self._settings.static_scene == HIDDEN:
-            return moving.copy(), colours
-        if self._settings.static_scene == DIMMED or self._marked is not None:
-            faint = faded(colours, background(self._settings.dark))
-            colours = np.where(moving[:, None], colours, faint)
-        return np.ones(len(moving), dtype=bool), colours
+        for cloud, drawn in (
+            (self._clouds.target, drawn_target(pair, self._settings, self._marked)),
+            (self._clouds.source, drawn_source(pair, self._settings, self._marked)),
+        ):
+            cloud.show(drawn.points, drawn.colours, drawn.moving)
 
     def _show_flow(self, pair: Pair) -> None:
         scale, palette = self._settings.arrow_scale, self._settings.palette
@@ -301,7 +267,7 @@ class Scene:
                     np.array(palette.side(self._side), np.uint8), (len(pair.flow.label), 1)
                 )
             if self._marked is not None:
-                faint = faded(colours, background(self._settings.dark))
+                faint = faded(colours, self._settings.dark)
                 of_picked = pair.flow.cluster == self._marked.index
                 colours = np.where(of_picked[:, None], colours, faint)
             displacement = scale * pair.interval * pair.flow.velocity

@@ -15,6 +15,21 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 
+def camera_at(position: tuple[float, float, float]) -> messages.ViewerCameraMessage:
+    """A page's message about its camera at a position in metres, which looks at the origin."""
+    return messages.ViewerCameraMessage(
+        wxyz=(1.0, 0.0, 0.0, 0.0),
+        position=position,
+        fov=0.9,
+        near=0.01,
+        far=1000.0,
+        image_height=720,
+        image_width=1280,
+        look_at=(0.0, 0.0, 0.0),
+        up_direction=(0.0, 0.0, 1.0),
+    )
+
+
 class WireClient:
     """Connects as a browser does, answers what a browser answers, and tells what it receives.
 
@@ -66,19 +81,7 @@ class WireClient:
 
     def look_from(self, position: tuple[float, float, float]) -> None:
         """Send the camera's position in metres; viser announces a client at the first one."""
-        self.send(
-            messages.ViewerCameraMessage(
-                wxyz=(1.0, 0.0, 0.0, 0.0),
-                position=position,
-                fov=0.9,
-                near=0.01,
-                far=1000.0,
-                image_height=720,
-                image_width=1280,
-                look_at=(0.0, 0.0, 0.0),
-                up_direction=(0.0, 0.0, 1.0),
-            )
-        )
+        self.send(camera_at(position))
 
     def change(self, label: str, value: Any) -> None:
         """Send a control's new value."""

@@ -8,7 +8,7 @@ import pytest
 import zstandard
 
 from recordings import chunks
-from recordings.chunks import Budget, chunk_data, claimed_size
+from recordings.chunks import Budget, chunk_data
 
 _COMPRESS = {"": bytes, "zstd": zstandard.compress, "lz4": lz4.frame.compress}
 _KINDS = pytest.mark.parametrize("compression", _COMPRESS)
@@ -60,9 +60,9 @@ def test_chunks_that_become_too_many_times_the_file_are_left_out(monkeypatch: py
     monkeypatch.setattr(chunks, "_MOST_ANYWAY", 1000)
     budget = Budget(30)  # whose chunks may have 3000 bytes
     for _ in range(2):
-        budget.take(claimed_size(record(bytes(1400), "zstd")))
+        chunk_data(record(bytes(1400), "zstd"), budget)
     with pytest.raises(ValueError, match="too many times its size"):
         budget.take(300)
     budget.take(200)
     with pytest.raises(ValueError, match="larger than"):
-        claimed_size(record(b"", "", size=2**60))
+        chunk_data(record(b"", "", size=2**60), budget)

@@ -10,18 +10,9 @@ from app.browser.connections import Unreadable
 from app.browser.rubbish import RubbishLog
 from app.browser.uploads import LARGEST_UPLOAD
 from app.browser.visitor import Visitor
+from tests.app.wire_client import camera_at
 
-CAMERA = messages.ViewerCameraMessage(
-    wxyz=(1.0, 0.0, 0.0, 0.0),
-    position=(1.0, 2.0, 3.0),
-    fov=0.9,
-    near=0.01,
-    far=1000.0,
-    image_height=720,
-    image_width=1280,
-    look_at=(0.0, 0.0, 0.0),
-    up_direction=(0.0, 0.0, 1.0),
-)
+CAMERA = camera_at((1.0, 2.0, 3.0))
 CLICK = messages.ScenePointerMessage("click", (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), ((0.5, 0.5),), None)
 NAN, INF = float("nan"), float("inf")
 

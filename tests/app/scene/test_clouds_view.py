@@ -41,8 +41,8 @@ def test_arrows_keep_their_own_colours(client):
 def test_what_moves_is_drawn_apart_from_what_does_not(client):
     view = CloudsView(client.scene, PALETTE)
     points, moving = np.arange(6.0).reshape(2, 3), np.array([True, False])
-    view.show_source(points, GREEN, moving)
-    view.show_target(points, GREEN, ~moving)
+    view.source.show(points, GREEN, moving)
+    view.target.show(points, GREEN, ~moving)
     for node, row in (("source", 0), ("static_source", 1), ("target", 1), ("static_target", 0)):
         assert client.node(f"{FIXED}/{node}").points.tolist() == [points[row].tolist()]
         assert client.node(f"{FIXED}/{node}").colors.tolist() == [GREEN[row].tolist()]

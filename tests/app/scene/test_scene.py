@@ -52,7 +52,7 @@ def colours(client, node):
 
 
 def faint(*wanted):
-    return sorted(faded(np.array(wanted), (255, 255, 255)).tolist())
+    return sorted(faded(np.array(wanted), dark=False).tolist())
 
 
 def test_what_moves_stands_out_from_a_dimmed_scene(scene, client, pair):
@@ -185,9 +185,9 @@ def test_a_restored_camera_has_its_sizes_at_once(client, pair):
 
 
 def test_a_frame_with_a_picked_cluster_sends_the_source_once(scene, client, pair, monkeypatch):
-    drawn, clouds = [], scene._clouds
-    real = clouds.show_source
-    monkeypatch.setattr(clouds, "show_source", lambda *a: drawn.append(len(a[0])) or real(*a))
+    drawn, source = [], scene._clouds.source
+    real = source.show
+    monkeypatch.setattr(source, "show", lambda *a: drawn.append(len(a[0])) or real(*a))
     (moving,) = [c for c in pair.flow.clusters if c.label == Label.MOVING]
     scene.show(pair, picked=moving)
     assert drawn == [len(pair.source.points) - len(moving.source)]
