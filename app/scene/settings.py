@@ -21,10 +21,6 @@ SHOWN, DIMMED, HIDDEN = "Shown", "Dimmed", "Hidden"
 STATIC_SCENE = (SHOWN, DIMMED, HIDDEN)
 """How points of both clouds that do not move are drawn."""
 
-SHOWN, DIMMED, HIDDEN = "Shown", "Dimmed", "Hidden"
-STATIC_SCENE = (SHOWN, DIMMED, HIDDEN)
-"""How points of both clouds that do not move are drawn."""
-
 ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER = "One colour", "Speed", "Direction", "Cluster"
 ARROW_COLOURS = (ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER)
 """Quantities that an arrow's colour can encode."""
