@@ -22,7 +22,7 @@ def _move(cluster: Cluster, window: Window, parameters: Parameters) -> ClusterRe
     current, displacement = icp_round(cluster.source, cluster.target, window, parameters)
     reason = (
         f"the baseline moves every cluster: fitness {current.fitness:.2f}, "
-        f"mean displacement {1e3 * current.mean_displacement:.0f} mm"
+        f"mean displacement {current.mean_displacement:.3f} m"
     )
     velocity = displacement / window.interval
     return cluster_result(cluster, cluster.source, [current], Label.MOVING, reason, velocity)

@@ -76,7 +76,6 @@ class Metrics:
         "mean length of the difference between each flow and the moving object's velocity",
         "paper, section IV",
         kind="error",
-        short="vel. error",
         unit="m/s",
         form=".4f",
         plotted=True,
@@ -110,6 +109,7 @@ class Metrics:
         "outliers",
         f"share of points with e > {OUTLYING:.2f} m or r > {RELAXED:.2f}",
         "HPLFlowNet; ICP-Flow's ROutliers is another: it requires both, with r > 0.30",
+        best="least",
     )
     dynamic_iou: float = metric(
         "dynamic IoU",
@@ -122,6 +122,7 @@ class Metrics:
         "points with a flow that do not truly move / points that do not truly move, over all "
         "pairs whose truth is known, also those at which nothing moves",
         form=".4f",
+        best="least",
     )
 
 

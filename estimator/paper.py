@@ -43,11 +43,11 @@ def classify(cluster: Cluster, window: Window, parameters: Parameters) -> Cluste
 
         if current.fitness > gamma:  # 13
             reached = f"fitness {current.fitness:.2f} above γ {gamma:g}"
-            moved = f"mean displacement {1e3 * current.mean_displacement:.0f} mm"
+            moved = f"mean displacement {current.mean_displacement:.3f} m"
             if current.mean_displacement < delta:  # 14-15
-                reason = f"{reached}, {moved} below δ {1e3 * delta:g} mm"
+                reason = f"{reached}, {moved} below δ {delta:g} m"
                 return cluster_result(cluster, source, rounds, Label.STATIONARY, reason)
-            reason = f"{reached}, {moved} not below δ {1e3 * delta:g} mm"  # 16-18
+            reason = f"{reached}, {moved} not below δ {delta:g} m"  # 16-18
             velocity = displacement / window.interval
             return cluster_result(cluster, source, rounds, Label.MOVING, reason, velocity)
 

@@ -20,6 +20,8 @@ class Stages:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._results: OrderedDict[Hashable, Any] = OrderedDict()
+        self.reused = 0
+        """Number of results that were asked for again."""
 
     def __len__(self) -> int:
         return len(self._results)
@@ -34,6 +36,7 @@ class Stages:
         with self._lock:
             if key in self._results:
                 self._results.move_to_end(key)
+                self.reused += 1
                 return self._results[key]
         result = make()
         with self._lock:

@@ -12,6 +12,8 @@ from recordings.tracks import Stamps, pose_track, vector_track
 from recordings.transforms import TransformTree
 from recordings.truth import ObjectTruth, RigidTruth, TurningTruth, TwistTruth
 
+TARGET_FRAME = "target"
+"""Frame of the moving object in /tf of our own files."""
 OBJECT_FRAME = "object_"
 """Prefix of an object's frame in /tf; the object's number in the truth of points follows."""
 _DIGITS = 9  # of an object's number

@@ -17,6 +17,7 @@ from recordings.joints import (
     unknown_joints,
 )
 from recordings.mcap_file import McapFile
+from recordings.object_meshes import TrueObjects, object_meshes
 from recordings.object_truth import object_truth, point_truths
 from recordings.placing import chosen_fixed_frame, unplaced_sensors
 from recordings.provenance import provenance_of
@@ -150,6 +151,8 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     warnings += more
     points, more = point_truths(topics, decoder, table, tree, fixed)
     warnings += more
+    meshes, more = object_meshes(file) if provenance is not None else ({}, [])
+    warnings += more
     return Recording(
         Parts(
             file=file,
@@ -160,6 +163,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
             robot=robot_poses,
             truth=truth,
             point_truths=points,
+            objects=TrueObjects(meshes, tree, fixed),
             fixed_frame=fixed,
             truth_frame=chosen.truth_frame,
             provenance=provenance,

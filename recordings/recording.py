@@ -1,6 +1,6 @@
 """Recording: clouds of its frames in a fixed frame, robot poses, and truth."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -16,6 +16,7 @@ from recordings.frame import Provenance
 from recordings.frame_table import FrameTable
 from recordings.grids import common_grid, padded
 from recordings.mcap_file import McapFile
+from recordings.object_meshes import ObjectMesh, TrueObjects
 from recordings.point_truth import PointTruths
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
@@ -41,6 +42,7 @@ class Parts:
     robot: RobotPoses | None
     truth: ObjectTruth | None
     point_truths: PointTruths | None
+    objects: TrueObjects
     fixed_frame: str
     truth_frame: str | None
     provenance: Provenance | None
@@ -62,6 +64,7 @@ class Recording:
         truth_frame: frame whose rigid motion is the truth, None for the recorded twist or pose.
         robot: None where there is none.
         provenance: None for files of other writers.
+        object_meshes: {frame: surface} of a simulation's moving objects, empty in other files.
         rig: of the simulation, None where the file does not hold it.
         duplicates: frames dropped because a later one has the same stamp.
     """
@@ -78,6 +81,7 @@ class Recording:
         self.robot: Robot | None = parts.robot.robot if parts.robot else None
         self.provenance = parts.provenance
         self.rig: Rig | None = parts.rig
+        self.object_meshes: Mapping[str, ObjectMesh] = parts.objects.meshes
         self.duplicates = parts.frames.duplicates
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
         # The point in the optical frame is the reading times its ray.
@@ -146,6 +150,25 @@ class Recording:
         """Poses (S, 4, 4) of the sensors at frame `k`, NaN where unknown."""
         return self._parts.sensor_poses.at(self._checked(k))
 
+    def latest_messages(self, k: int) -> NDArray[np.float64]:
+        """Header stamps (S,) in seconds of each sensor's last message up to frame `k`.
+
+        One before `stamps[k]` is of an earlier frame: the sensor has no message of this one. NaN
+        where it has none yet.
+        """
+        frames = self._parts.frames.message[: self._checked(k) + 1]
+        latest = np.full(len(self.sensors), np.nan)
+        for s, stream in enumerate(self._parts.streams):
+            index = frames[-1, s]
+            if index < 0:
+                earlier = np.flatnonzero(frames[:, s] >= 0)
+                if len(earlier) == 0:
+                    continue
+                index = frames[earlier[-1], s]
+            stamps = self._parts.decoder.header_stamps(stream.topic.channel)
+            latest[s] = stamps[index].astype(np.float64) * 1e-9
+        return latest
+
     def joint_positions(self, k: int) -> dict[str, float]:
         """{joint: rad or m} at frame `k`; empty without a robot or outside its recorded joints."""
         robot = self._parts.robot
@@ -155,6 +178,10 @@ class Recording:
         """{link: T_fixed_link (4, 4)} at frame `k` of the links whose pose is known."""
         robot = self._parts.robot
         return dict(robot.link_poses(self._checked(k))) if robot else {}
+
+    def object_poses(self, k: int) -> dict[str, Transform]:
+        """{frame of `object_meshes`: T_fixed_object (4, 4)} at frame `k`, NaN where unknown."""
+        return self._parts.objects.poses(self._checked(k))
 
     def truth(self, k: int) -> NDArray[np.float64] | None:
         """Velocity (3,) m/s of the moving object in the fixed frame, None where unknown.

@@ -1,9 +1,9 @@
 """Writer of recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 
 import numpy as np
 from mcap.writer import CompressionType, Writer
@@ -13,14 +13,14 @@ from recordings.contents import natural_key
 from recordings.draft import Draft
 from recordings.errors import RecordingError
 from recordings.frame import Frame, PointTruth, Provenance
-from recordings.object_truth import OBJECT_FRAME
+from recordings.object_meshes import MESHES_TYPE, OBJECT_MESHES, ObjectMesh, pack_meshes
+from recordings.object_truth import OBJECT_FRAME, TARGET_FRAME
 from recordings.provenance import PROVENANCE_RECORD, provenance_record
 from recordings.rig_record import RIG_ATTACHMENT, RIG_TYPE, depth_topic, packed, topic_part
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
 from recordings.transforms import inverse
 from robot_assets import Rig, Robot
 
-TARGET_FRAME = "target"
 _LATCHED = (
     "- durability: transient_local\n  reliability: reliable\n  history: keep_last\n  depth: 1"
 )
@@ -37,12 +37,20 @@ class RecordingWriter:
         robot: that carries the sensors.
         rig: its sensors.
         provenance: of the readings.
+        meshes: {frame: surface} of moving objects, in frames that the frames' poses place.
 
     Raises:
         RecordingError: the file cannot be written.
     """
 
-    def __init__(self, path: Path, robot: Robot, rig: Rig, provenance: Provenance) -> None:
+    def __init__(
+        self,
+        path: Path,
+        robot: Robot,
+        rig: Rig,
+        provenance: Provenance,
+        meshes: Mapping[str, ObjectMesh] = MappingProxyType({}),
+    ) -> None:
         self._path = path
         self._robot = robot
         self._rig = rig
@@ -60,6 +68,9 @@ class RecordingWriter:
                 self._writer.start(profile="ros2", library="tofscope")
                 self._writer.add_metadata(PROVENANCE_RECORD, provenance_record(provenance))
                 self._writer.add_attachment(0, 0, RIG_ATTACHMENT, RIG_TYPE, packed(rig))
+                if meshes:
+                    content = pack_meshes(meshes)
+                    self._writer.add_attachment(0, 0, OBJECT_MESHES, MESHES_TYPE, content)
         except BaseException:
             self._draft.discard()
             raise

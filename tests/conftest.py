@@ -20,6 +20,7 @@ settings.register_profile("repeatable", derandomize=True, deadline=None, max_exa
 settings.load_profile("repeatable")
 
 
+EXPORTS = "tests/browser/test_export_in_chromium.py"
 LONG = ("tests/browser/", "tests/app/commands/", "tests/app/study/")
 
 
@@ -33,11 +34,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 class FileScheduling(LoadFileScheduling):
-    """Division of the tests by files, with all browser tests in one process and one Chromium."""
+    """Division of the tests by files, with browser tests in one process and one Chromium.
+
+    Exports start a Chromium each, and are another process's.
+    """
 
     def _split_scope(self, nodeid: str) -> str:
-        browser = LONG[0]
-        return browser if nodeid.startswith(browser) else super()._split_scope(nodeid)
+        shared = nodeid.startswith(LONG[0]) and not nodeid.startswith(EXPORTS)
+        return LONG[0] if shared else super()._split_scope(nodeid)
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> FileScheduling:

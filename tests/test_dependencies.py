@@ -49,7 +49,7 @@ RUNTIME = declared(PROJECT["dependencies"])
 def test_what_tofscope_imports_is_declared_and_nothing_else_is():
     found = imported(*TOP)
     assert len(found) > 15
-    wanted = RUNTIME | declared(EXTRAS["dask"])
+    wanted = RUNTIME | declared(EXTRAS["dask"]) | declared(EXTRAS["video"])
     assert {name: str(path) for name, path in found.items() if name not in wanted} == {}
     assert wanted - found.keys() - LOADED_BY_OTHERS - {"open3d-cpu"} == set()
 
@@ -57,7 +57,8 @@ def test_what_tofscope_imports_is_declared_and_nothing_else_is():
 def test_what_tests_and_benchmarks_import_is_declared():
     found, wanted = imported("tests", "benchmarks"), RUNTIME | declared(EXTRAS["dev"])
     assert {name: str(path) for name, path in found.items() if name not in wanted} == {}
-    assert declared(EXTRAS["dev"]) - found.keys() - TOOLS <= declared(EXTRAS["dask"])
+    optional = declared(EXTRAS["dask"]) | declared(EXTRAS["video"])
+    assert declared(EXTRAS["dev"]) - found.keys() - TOOLS <= optional
 
 
 def test_every_package_has_a_version_and_the_constraints_hold_nothing_else():

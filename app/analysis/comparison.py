@@ -42,6 +42,13 @@ class Comparison:
         return (edited, other) if self.edited == A else (other, edited)
 
 
+def by_side(comparison: Comparison | None, edited: T, other: T) -> dict[str, T]:
+    """{A or B: its value} of what belongs to the edited and the other side, A alone without a B."""
+    if comparison is None:
+        return {A: edited}
+    return dict(zip((A, B), comparison.in_order(edited, other), strict=True))
+
+
 @dataclass(frozen=True)
 class FrameEstimate:
     """Pairs of one frame, with the edited and with the other parameters.

@@ -4,12 +4,15 @@ import itertools
 import os
 import threading
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from app.errors import InputError
 from recordings import Recording
+
+_MOST_FOLDERS = 20_000
+"""Folders below a given one that are looked into: somebody may give the root of the disk."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Library:
     """Lists recordings and keeps each open while a session uses it.
 
     Args:
-        paths: files, and folders whose *.mcap files are listed.
+        paths: files, and folders whose *.mcap files are listed, with those of the folders in them.
         open_recording: opens the recording at a path.
 
     Raises:
@@ -71,12 +74,14 @@ class Library:
 
     def listing(self) -> tuple[Entry, ...]:
         """Recordings that exist now, in the order of the paths, then of the file names."""
-        files: dict[Path, None] = {}
+        names: dict[Path, str] = {}
         for path in self.paths:
-            files |= dict.fromkeys(sorted(path.glob("*.mcap")) if path.is_dir() else [path])
-        return tuple(
-            Entry(label, path) for label, path in zip(_labels([*files]), files, strict=True)
-        )
+            if path.is_dir():
+                for file in _files_in(path):
+                    names.setdefault(file, file.relative_to(path).with_suffix("").as_posix())
+            else:
+                names.setdefault(path, path.stem)
+        return tuple(map(Entry, _labels(names), names))
 
     def open(self, entry: Entry) -> Opened:
         """Open a recording, or share the open one; each call needs a `release`.
@@ -111,17 +116,38 @@ class Library:
             shared.opened.recording.close()
 
 
-def _labels(files: Sequence[Path]) -> list[str]:
-    r"""File stems where unique, else folder and name, else the whole path.
+def _files_in(folder: Path) -> Iterator[Path]:
+    """The *.mcap files of a folder by name, then those of each folder in it.
+
+    Nothing outside of it is listed: links to folders are not followed, and links to files only
+    where they stay inside. Hidden folders are left out.
+    """
+    inside = folder.resolve()
+    for walked, (where, folders, files) in enumerate(os.walk(folder)):
+        if walked == _MOST_FOLDERS:
+            return
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(files):
+            path = Path(where, name)
+            leaves = path.is_symlink() and inside not in path.resolve().parents
+            if path.suffix == ".mcap" and not leaves:
+                yield path
+
+
+def _labels(names: Mapping[Path, str]) -> list[str]:
+    r"""Names of files where unique, else folder and name, else the whole path.
 
     Bytes of names that are no text are escapes, such as \xff: a page cannot send them back.
+
+    Args:
+        names: {file: its name below the folder that was opened, without its ending}.
     """
-    labels = [_readable(path.stem) for path in files]
+    labels = [_readable(name) for name in names.values()]
     for longer in (lambda path: f"{path.parent.name}/{path.name}", str):
         count = Counter(labels)
         labels = [
             _readable(longer(path)) if count[label] > 1 else label
-            for path, label in zip(files, labels, strict=True)
+            for path, label in zip(names, labels, strict=True)
         ]
     return labels
 

@@ -2,6 +2,27 @@
 
 from recordings import Recording
 
+NO_TRUTH = "has no truth, so there is nothing to compare with"
+
+
+def truth_frame_note(frame: str) -> str:
+    """What numbers are worth with a truth frame."""
+    return (
+        "coverage, precision, EPE3D and the other metrics of points assume that every point moves "
+        f"with {frame}"
+    )
+
+
+def all_notes(recording: Recording) -> list[str]:
+    """All that a reader must know of a recording, also of its truth."""
+    sentences = notes(recording)
+    if not recording.has_truth:
+        sentences.append(f"The recording {NO_TRUTH}.")
+    elif recording.truth_frame is not None:
+        note = truth_frame_note(recording.truth_frame)
+        sentences.append(f"{note[0].upper()}{note[1:]}.")
+    return sentences
+
 
 def notes(recording: Recording) -> list[str]:
     """Warnings as sentences; some arise only once frames are read."""

@@ -62,12 +62,17 @@ class PairEstimator:
         if prepared.window is None:
             return prepared.pair
         if self._method.tracker is not None:
-            flow, seconds = self._segment(k, self._method.tracker).at(k, prepare)
+            timed = self._segment(k, self._method.tracker).at(k, prepare)
         else:
-            flow, seconds = _timed(
+            timed = _timed(
                 self._method, lambda window: estimate(window, self._parameters), prepared.window
             )
-        return replace(prepared.pair, flow=flow, milliseconds=1e3 * seconds)
+        return replace(
+            prepared.pair,
+            flow=timed.flow,
+            milliseconds=1e3 * timed.seconds,
+            reused=timed.reused,
+        )
 
     def _segment(self, k: int, tracker: Callable[[Parameters], Tracker]) -> "_Segment":
         n = self._parameters.n
@@ -82,6 +87,15 @@ class PairEstimator:
             return self._segments[index]
 
 
+@dataclass(frozen=True)
+class _Timed:
+    """A flow, the seconds that it took, and whether parts of it had been computed before."""
+
+    flow: SceneFlow
+    seconds: float
+    reused: bool
+
+
 @dataclass
 class _Segment:
     """Results of a tracker over a segment, computed up to the last requested frame."""
@@ -89,11 +103,11 @@ class _Segment:
     method: Method
     tracker: Tracker
     next: int
-    found: dict[int, tuple[SceneFlow, float] | Exception] = field(default_factory=dict)
+    found: dict[int, _Timed | Exception] = field(default_factory=dict)
     lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def at(self, k: int, prepare: Prepare) -> tuple[SceneFlow, float]:
-        """Flow of frame `k` and the seconds of its step; an error of the step is raised again."""
+    def at(self, k: int, prepare: Prepare) -> _Timed:
+        """Flow of frame `k`, with the seconds of its step; an error of the step is raised again."""
         with self.lock:
             while self.next <= k:
                 self.found[self.next] = self._step(self.next, prepare)
@@ -103,7 +117,7 @@ class _Segment:
             raise found.with_traceback(None)  # or it grows each time
         return found
 
-    def _step(self, k: int, prepare: Prepare) -> tuple[SceneFlow, float] | Exception:
+    def _step(self, k: int, prepare: Prepare) -> _Timed | Exception:
         # A frame that is broken in the file, or fails the method, does not end the segment. Another
         # error of reading is raised before the step, which the next request makes again.
         try:
@@ -117,15 +131,13 @@ class _Segment:
             return error.with_traceback(None)
 
 
-def _timed(
-    method: Method, step: Callable[[Window], SceneFlow], window: Window
-) -> tuple[SceneFlow, float]:
+def _timed(method: Method, step: Callable[[Window], SceneFlow], window: Window) -> _Timed:
     """Flow of a window and the seconds that it took.
 
     Raises:
         MethodError: the method gave no flow of the window's source, or is a user's own and failed.
     """
-    start = time.perf_counter()
+    start, reused = time.perf_counter(), window.stages.reused
     try:
         flow = step(window)
     except UserError:
@@ -138,7 +150,8 @@ def _timed(
             f"Method {method.name} failed ({type(error).__name__}: {error}); --log-level debug "
             "shows where."
         ) from error
-    return checked_flow(method, window, flow), time.perf_counter() - start
+    seconds = time.perf_counter() - start
+    return _Timed(checked_flow(method, window, flow), seconds, window.stages.reused > reused)
 
 
 def flows(recording: Recording, parameters: Parameters) -> Iterator[tuple[int, SceneFlow]]:

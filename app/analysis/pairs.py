@@ -38,7 +38,9 @@ class Pair:
         truth: over the interval, None where unknown.
         flow: None without a source or before the estimate.
         milliseconds: duration of the estimate, NaN without one.
+        reused: whether parts of the estimate had been computed before.
         n: frames between source and target, 0 without a source.
+        object_poses: {frame of the recording's object meshes: T_fixed_object (4, 4)} at frame k.
     """
 
     frame: int
@@ -49,7 +51,9 @@ class Pair:
     truth: PairTruth | None
     flow: SceneFlow | None = field(default=None)
     milliseconds: float = field(default=float("nan"))
+    reused: bool = False
     n: int = 0
+    object_poses: dict[str, Transform] = field(default_factory=dict[str, Transform])
 
     @property
     def object_velocity(self) -> NDArray[np.float64] | None:
@@ -137,8 +141,9 @@ def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCl
     """Load the pair (k-n, k) through `load`; otherwise as `prepare_pair`."""
     source_k = k - parameters.n
     target, link_poses = load(k), recording.link_poses(k)
+    object_poses = recording.object_poses(k)
     if source_k < 0:
-        return Pair(k, target, None, float("nan"), link_poses, None)
+        return Pair(k, target, None, float("nan"), link_poses, None, object_poses=object_poses)
     return Pair(
         frame=k,
         target=target,
@@ -147,6 +152,7 @@ def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCl
         link_poses=link_poses,
         truth=recording.pair_truth(source_k, k, parameters.max_range),
         n=parameters.n,
+        object_poses=object_poses,
     )
 
 

@@ -7,7 +7,6 @@ from scipy.spatial import KDTree
 from app.analysis.pairs import Pair
 from estimator import ClusterResult
 
-_TOLERANCE = 0.012  # maximum angle between the ray of a click and the point it selects, rad
 _SAME = 0.05  # maximum distance between matching points of two estimates, metres
 
 
@@ -19,6 +18,11 @@ class Selection:
 
     def __init__(self) -> None:
         self._points: NDArray[np.float64] | None = None
+        self._awaited: int | None = None
+
+    def await_cluster(self, index: int | None) -> None:
+        """Pick the cluster with this index in the next pair that has a flow."""
+        self._awaited = index
 
     def pick(self, pair: Pair, index: int | None) -> None:
         """Pick the cluster with this index, or none if the pair's flow lacks it."""
@@ -30,6 +34,9 @@ class Selection:
 
         The match is the cluster nearest to most of the picked points, half of them at least.
         """
+        if self._awaited is not None and pair is not None and pair.flow is not None:
+            index, self._awaited = self._awaited, None
+            self.pick(pair, index)
         if self._points is None or pair is None or pair.flow is None or not pair.flow.clusters:
             return None
         points = [points_of(pair, cluster) for cluster in pair.flow.clusters]
@@ -44,7 +51,7 @@ class Selection:
 
     def drop(self) -> None:
         """Clear the selection."""
-        self._points = None
+        self._points = self._awaited = None
 
 
 def cluster_of(pair: Pair, index: int | None) -> ClusterResult | None:
@@ -57,27 +64,3 @@ def points_of(pair: Pair, cluster: ClusterResult) -> NDArray[np.float64]:
     """Source and target points (N, 3) of a cluster of a pair's flow."""
     assert pair.source is not None
     return np.vstack([pair.source.points[cluster.source], pair.target.points[cluster.target]])
-
-
-def cluster_at(
-    pair: Pair, origin: NDArray[np.float64], direction: NDArray[np.float64]
-) -> int | None:
-    """Index of the cluster that a ray from the camera selects, by the point nearest to the ray.
-
-    Args:
-        pair: to search.
-        origin: (3,) metres, in the fixed frame.
-        direction: (3,), of any length.
-
-    Returns:
-        The cluster's index, None if the ray misses all clusters.
-    """
-    found: list[tuple[float, int]] = []
-    direction = direction / np.linalg.norm(direction)
-    for cluster in pair.flow.clusters if pair.flow else ():
-        offset = points_of(pair, cluster) - origin
-        depth = offset @ direction
-        aside = np.linalg.norm(offset - depth[:, None] * direction, axis=1)
-        found.append((float(np.arctan2(aside, depth).min()), cluster.index))
-    angle, index = min(found, default=(np.inf, -1))
-    return index if angle <= _TOLERANCE else None

@@ -35,6 +35,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 from websockets.protocol import State
 
+from app.browser.completion import completing
 from app.browser.encodable import encodable
 from app.browser.pace import Pace
 
@@ -101,11 +102,13 @@ class Guards:
         refused: status and reason to refuse a request with, None to answer it.
         headers: of all answers.
         attend: makes the attendant of a client from its number and what ends its connection.
+        page: changes the page that viser sends.
     """
 
     refused: Callable[[Request], tuple[http.HTTPStatus, str] | None]
     headers: Mapping[str, str]
     attend: Callable[[int, Callable[[], None]], Attendant]
+    page: Callable[[bytes], bytes] = lambda html: html
 
 
 @contextlib.contextmanager
@@ -199,10 +202,6 @@ def _guarded_serving(serve: Callable[..., Any], guards: Guards) -> Callable[...,
             except (OSError, ValueError):  # of a path that no file system takes
                 return connection.respond(http.HTTPStatus.NOT_FOUND, "NOT FOUND\n")
 
-        def complete(_: ServerConnection, __: Request, response: Response) -> None:
-            for name, value in guards.headers.items():
-                response.headers[name] = value
-
         class Connection(_Connection):
             crowd: ClassVar[set[ServerConnection]] = set()
 
@@ -210,7 +209,7 @@ def _guarded_serving(serve: Callable[..., Any], guards: Guards) -> Callable[...,
             handle,
             *arguments,
             process_request=answer,
-            process_response=complete,
+            process_response=completing(guards.headers, guards.page),
             create_connection=Connection,
             max_queue=_WAITING,
             **options,

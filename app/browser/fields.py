@@ -1,9 +1,8 @@
 """Clicks on HTML elements that set fields of the page.
 
-viser reports no clicks on HTML or plots. A click on an element with the attributes of `sets` or
-`sets_along` is therefore entered into a number field, a slider or a dropdown of the page, as if
-typed there. The script also restores numbers that are left empty, and removes the focus from
-fields after use.
+viser reports no clicks on HTML. A click on an element with the attributes of `sets` is therefore
+entered into a number field, a slider or a dropdown of the page, as if typed there. The script also
+restores numbers that are left empty, and removes the focus from fields after use.
 """
 
 import viser
@@ -11,7 +10,6 @@ import viser
 from app.browser.internals import (
     DROPDOWN,
     DROPDOWN_OPTION,
-    FOLDER_ARROW,
     NUMBER_INPUT,
     element_id,
     run_script,
@@ -42,25 +40,10 @@ if (!window.tofscopeSet) {
     const number = 'input:not([type=hidden])';
     type(field.matches(number) ? field : field.parentElement.querySelector(number), value);
   };
-  window.tofscopeUnfold = name => {
-    for (const arrow of document.querySelectorAll('%(arrow)s')) {
-      const label = arrow.parentElement;
-      if (label.textContent !== name) continue;
-      label.click();
-      setTimeout(() => label.scrollIntoView({behavior: 'smooth'}), 300);  // once it is unfolded
-    }
-  };
-  window.tofscopeAlong = (event, element, start, end) => {
-    const box = element.getBoundingClientRect();
-    const share = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1);
-    return start + (end - start) * share;
-  };
   document.addEventListener('click', event => {
     const element = event.target.closest('[data-sets]');
     if (!element) return;
-    const {sets, value, end} = element.dataset;
-    const along = () => Math.round(window.tofscopeAlong(event, element, 0, Number(end))).toString();
-    window.tofscopeSet(sets, value ?? along());
+    window.tofscopeSet(element.dataset.sets, element.dataset.value);
   });
   // A focused field would swallow the keys of playback.
   const leave = () => setTimeout(() => document.activeElement?.blur(), 0);
@@ -80,7 +63,6 @@ if (!window.tofscopeSet) {
 }
 """
 _NAMES = {
-    "arrow": FOLDER_ARROW,
     "dropdown": DROPDOWN,
     "number": NUMBER_INPUT,
     "option": DROPDOWN_OPTION,
@@ -92,11 +74,6 @@ def set_up_fields(client: viser.ClientHandle) -> None:
     run_script(client, _SCRIPT % _NAMES)
 
 
-def unfold(client: viser.ClientHandle, folder: str) -> None:
-    """Open a closed folder of the page by its name, and scroll to it."""
-    run_script(client, f"window.tofscopeUnfold({folder!r})")
-
-
 def sets(control: viser.GuiInputHandle, value: str) -> str:
     """HTML attributes of an element whose click sets a control to a value.
 
@@ -105,8 +82,3 @@ def sets(control: viser.GuiInputHandle, value: str) -> str:
         value: as the control shows it; without quotes.
     """
     return f'data-sets="{element_id(control)}" data-value="{value}"'
-
-
-def sets_along(control: viser.GuiInputHandle, end: int) -> str:
-    """HTML attributes of an element whose click position sets a slider, from 0 to `end`."""
-    return f'data-sets="{element_id(control)}" data-end="{end}"'

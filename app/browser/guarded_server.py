@@ -40,10 +40,16 @@ class GuardedServer(viser.ViserServer):
         port: port to listen on, 0 for any free one.
         label: title of the panel.
         embedders: origins whose pages may show this server's in a frame.
+        page: changes the page that viser sends.
     """
 
     def __init__(
-        self, host: str, port: int, label: str | None = None, embedders: Sequence[str] = ()
+        self,
+        host: str,
+        port: int,
+        label: str | None = None,
+        embedders: Sequence[str] = (),
+        page: Callable[[bytes], bytes] = lambda html: html,
     ) -> None:
         logging.getLogger(CONNECTION_LOGGER).setLevel(logging.CRITICAL)
         for message in (CLOSED_CONNECTION, ODD_MESSAGE):
@@ -53,6 +59,7 @@ class GuardedServer(viser.ViserServer):
             refused=lambda request: _refusal(request, host),
             headers=framing_headers(embedders),
             attend=self._attend,
+            page=page,
         )
         with _starting, _quiet(), guarding(guards):
             super().__init__(host=host, port=port, label=label, verbose=False)

@@ -12,17 +12,8 @@ from viser._messages import GuiUpdateMessage, RunJavascriptMessage
 SCENE_CANVAS = "canvas[data-engine]"
 """Canvas of the scene, by three.js's attribute; used for its size, which viser does not report."""
 
-FOLDER_ARROW = "svg.tabler-icon-chevron-down"
-"""Arrow of a closed folder; clicked to open it, since viser cannot open a folder later."""
-
 NUMBER_INPUT = "input.mantine-NumberInput-input"
 """Input of a number field; used to restore a number that is left empty."""
-
-PLOT_AREA = ".u-over"
-"""Mouse area of a plot; used for clicks, which viser does not report."""
-
-PLOT_CANVAS = ".uplot canvas"
-"""Canvas of a plot; used to draw it pale."""
 
 DROPDOWN = "[aria-haspopup=listbox]"
 """Input of a dropdown; its `aria-controls` names the list that it opens."""
@@ -41,7 +32,17 @@ FULL_RESOLUTION = "?fixedDpr=1"
 down to three quarters, and its pictures are enlarged from that."""
 
 PAGE_TITLE = "<title>Viser</title>"
-"""Title in viser's page, which an offline page replaces."""
+"""Title in viser's page, which our front page and an offline page replace."""
+
+PAGE_ROOT = "#root"
+"""Element that viser's page draws into; hidden until our panels are there."""
+
+SETTINGS_ICON = "svg.tabler-icon-adjustments"
+"""Icon of the button that shows viser's own settings in place of our panels; removed."""
+
+CONNECTION_NEWS = ("connected", "closed")
+"""Types of the messages by which the worker that holds the connection says how it is; used to tell
+a lost connection, which viser shows by a small icon alone."""
 
 NO_FLASH = """<script>
 const waiting = setInterval(() => {
@@ -139,6 +140,13 @@ next keys go into another number than the one that was meant."""
 def element_id(control: viser.GuiInputHandle[Any]) -> str:
     """Id of a control's element in the page, for scripts."""
     return control._impl.uuid
+
+
+def hints_of(client: viser.ClientHandle) -> dict[str, str]:
+    """{id of a control's element: its hint} of the page's controls that have one."""
+    controls = list(client.gui._gui_input_handle_from_uuid.values())
+    hints = {control._impl.uuid: getattr(control, "hint", None) for control in controls}
+    return {name: hint for name, hint in hints.items() if hint}
 
 
 def call_in_event_loop(control: viser.GuiInputHandle[Any], action: Callable[[], None]) -> None:

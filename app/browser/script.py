@@ -4,12 +4,14 @@ from uuid import uuid4
 
 import viser
 
+from app.browser.assets import call, run_asset
 from app.browser.internals import (
     KEEP_TYPED,
     SCENE_CANVAS,
     SEND_AT_ONCE,
     SLIDER_OR_TAB,
     STORAGE_PREFIX,
+    hints_of,
     run_script,
 )
 
@@ -30,19 +32,30 @@ if (!window.tofscopeKeys) {{
 }}
 """
 
-# Docked panels shift the scene. Its resize events report that at once, but not always: a panel that
-# goes to the other side, or comes back after a lost connection, leaves the size as it was.
+# Docked panels shift the scene, on both sides. Its resize events report that at once, but not
+# always: a panel that goes to the other side, or comes back after a lost connection, leaves the
+# size as it was.
 _EDGE = f"""
 if (!window.tofscopeEdge) {{
   const canvas = document.querySelector("{SCENE_CANVAS}");
-  const follow = () => document.documentElement.style.setProperty(
-    "--scene-left", `${{canvas.getBoundingClientRect().left}}px`);
+  const page = document.documentElement.style;
+  const follow = () => {{
+    const {{left, right, width, height}} = canvas.getBoundingClientRect();
+    page.setProperty("--scene-left", `${{left}}px`);
+    page.setProperty("--scene-right", `${{window.innerWidth - right}}px`);
+    page.setProperty("--scene-width", `${{width}}px`);
+    page.setProperty("--scene-height", `${{height}}px`);
+  }};
   if (canvas) {{
     window.tofscopeEdge = new ResizeObserver(follow);
     window.tofscopeEdge.observe(canvas);
     setInterval(follow, 300);
   }}
 }}
+"""
+
+_BACKGROUND = """
+document.documentElement.style.setProperty("--scene-background", "%s");
 """
 
 _SIZE_TO_STORAGE = f"""
@@ -65,6 +78,11 @@ if (link !== null) {{
   history.replaceState(null, "", location.pathname + (query.size ? "?" + query : ""));
   localStorage.setItem("{STORAGE_PREFIX}%s", link);
 }}
+"""
+
+_PREFERENCE_TO_STORAGE = f"""
+localStorage.setItem(
+  "{STORAGE_PREFIX}%s", window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "");
 """
 
 _TOKEN = "session"
@@ -95,6 +113,17 @@ def set_up_keys(client: viser.ClientHandle) -> None:
     run_script(client, _KEYS)
 
 
+def set_up_tabs(client: viser.ClientHandle) -> None:
+    """Open again, after a reload, the tabs that were open."""
+    run_asset(client, "tabs.js")
+
+
+def show_hints(client: viser.ClientHandle) -> None:
+    """Show the hints of all controls at their labels, too, which viser shows at fields alone."""
+    run_asset(client, "hints.js")
+    call(client, "showHints", hints_of(client))
+
+
 def take_link(client: viser.ClientHandle, timeout: float) -> str | None:
     """Take the token of the link that the page was opened with, None without one.
 
@@ -117,6 +146,16 @@ def take_token(client: viser.ClientHandle, timeout: float) -> str | None:
     return _answer(client, _TOKEN_TO_STORAGE, timeout) or None
 
 
+def prefers_dark(client: viser.ClientHandle, timeout: float) -> bool:
+    """Whether the system of the person at the page is dark.
+
+    Raises:
+        RuntimeError: the client has disconnected, or its browser has no storage.
+        TimeoutError: no answer within `timeout` seconds.
+    """
+    return _answer(client, _PREFERENCE_TO_STORAGE, timeout) == "dark"
+
+
 def keep_token(client: viser.ClientHandle, token: str) -> None:
     """Store a token in this tab, for a reload of the page."""
     run_script(client, _KEEP_TOKEN % token)
@@ -128,8 +167,17 @@ def copy_link(client: viser.ClientHandle, token: str) -> None:
 
 
 def set_up_scene_edge(client: viser.ClientHandle) -> None:
-    """Provide the scene's left edge to style sheets as `--scene-left`."""
+    """Provide the scene's place to style sheets.
+
+    Its distances from the window's sides are `--scene-left` and `--scene-right`; its size is
+    `--scene-width` and `--scene-height`.
+    """
     run_script(client, _EDGE)
+
+
+def show_background(client: viser.ClientHandle, colour: str) -> None:
+    """Show a colour, in CSS notation, behind the scene."""
+    run_script(client, _BACKGROUND % colour)
 
 
 def canvas_size(client: viser.ClientHandle) -> tuple[int, int]:

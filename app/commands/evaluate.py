@@ -17,7 +17,7 @@ import numpy as np
 from rich.cells import cell_len
 
 from app.analysis.evaluation import evaluate
-from app.analysis.notes import notes
+from app.analysis.notes import NO_TRUTH, notes, truth_frame_note
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import (
     Opening,
@@ -133,7 +133,7 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
     except UserError as error:
         return row, [str(error)]
     if metrics is None:
-        return row, [*warnings, f"{path} has no truth, so there is nothing to compare with."]
+        return row, [*warnings, f"{path} {NO_TRUTH}."]
     if metrics.pairs == 0:
         known = "" if math.isnan(metrics.false_flow) else " Only the false flow is known."
         warnings.append(
@@ -141,10 +141,7 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
             f"n is {parameters.n}.{known}"
         )
     if opening.truth_frame is not None:
-        warnings.append(
-            f"{path}: coverage, precision, EPE3D and the other metrics of points assume that every "
-            f"point moves with {opening.truth_frame}."
-        )
+        warnings.append(f"{path}: {truth_frame_note(opening.truth_frame)}.")
     return row | _as_json(metrics), warnings
 
 

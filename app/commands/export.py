@@ -1,85 +1,50 @@
-"""`tofscope export`: pictures and offline pages without an open browser."""
+"""`tofscope export`: pictures, drawings, videos, pages and flow without an open browser."""
 
 import argparse
-import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.commands.flags.export_flags import (
+    add_export_flags,
+    figure_size,
+    made,
+    view_names,
+    view_settings,
+)
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, files_read, opening_from
 from app.errors import InputError
-from app.output.checks import PAGE, PICTURE, check_output
+from app.output.checks import PAGE, PICTURE, check_output, check_output_of
+from app.output.export_kinds import FLOWS, VECTORS, VIDEOS
+from app.output.image_folder import check_image_folder, write_image_folder
 from app.output.writing import write
+from app.terminal.bar import Bar
+from app.terminal.output import terminal
 from estimator import Parameters
 from robot_assets.printable import printable
 
 if TYPE_CHECKING:
+    from app.analysis.estimates import Estimates
     from app.analysis.library import Opened
-    from app.scene.settings import ViewSettings
-
-_VIEWS = ("3d", "top", "front", "robot", "fit")
-_COLOURS = ("paper", "colour-blind")
-_ARROWS = ("one", "speed", "direction", "cluster")
-_SIDE = (16, 4096)  # pixels; larger ones, drawn in software, take minutes
+    from app.exports.animation import Animation
+    from app.exports.figure_settings import FigureSettings
 
 
 def add_parser(commands: argparse._SubParsersAction) -> None:
     """Add the subcommand."""
     parser = commands.add_parser(
         "export",
-        help="make a picture or an offline page of a recording",
+        help="make a picture, a drawing, a video, an offline page or a file of a recording's flow",
         description=(
-            "Draw a recording as the app does: a frame as a PNG picture, which needs Chromium, "
-            "or all frames as one HTML page, which plays in any browser without network. The "
-            "files say of themselves which recording they show, and with which parameters."
+            "Draw a recording as the app does, for print, for talks and for others, or write its "
+            "flow as numbers. The files say of themselves which recording they show, and with "
+            "which parameters."
         ),
     )
     parser.add_argument("path", type=Path, metavar="PATH", help="a recording")
-    what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--screenshot", type=Path, metavar="FILE.png", help="make a picture")
-    what.add_argument("--html", type=Path, metavar="FILE.html", help="make an offline page")
-    parser.add_argument(
-        "--view",
-        choices=_VIEWS,
-        nargs="+",
-        default=["3d"],
-        help=(
-            "where the camera stands: at a slant, above, before the robot, on its skin, or far "
-            "enough to see everything; several stand side by side in a picture, such as 3d top "
-            "(default 3d)"
-        ),
-    )
-    parser.add_argument("--dark", action="store_true", help="draw on black (default: on white)")
-    parser.add_argument(
-        "--colours",
-        choices=_COLOURS,
-        default=_COLOURS[0],
-        help="as in the paper, or such that colour-blind readers can tell them apart",
-    )
-    parser.add_argument(
-        "--arrows",
-        choices=_ARROWS,
-        default=_ARROWS[0],
-        help="what the colours of the arrows say (default: nothing, all have one)",
-    )
-    picture = parser.add_argument_group("a picture")
-    picture.add_argument(
-        "--frame", type=int, metavar="K", help="frame k (default: one at which something moves)"
-    )
-    picture.add_argument(
-        "--size",
-        type=_size,
-        metavar="WIDTHxHEIGHT",
-        help="of a view, in pixels (default 1600x900)",
-    )
-    picture.add_argument("--transparent", action="store_true", help="no background")
-    picture.add_argument(
-        "--legend", action="store_true", help="say in the picture what the colours mean"
-    )
-    page = parser.add_argument_group("an offline page")
-    page.add_argument(
-        "--frames", type=_range, metavar="FIRST:LAST", help="frames that it plays (default: all)"
-    )
+    add_export_flags(parser)
     add_recording_flags(parser)
     add_parameter_flags(parser)
     parser.set_defaults(run=run)
@@ -90,51 +55,189 @@ def run(options: argparse.Namespace) -> int:
     from app.analysis.library import Library
 
     parameters = parameters_from(options)
-    _check_flags(options)
-    place, kind = (options.screenshot, PICTURE) if options.screenshot else (options.html, PAGE)
-    check_output(place, kind, [options.path, *files_read(options)])
+    kind = made(options)
+    place: Path = getattr(options, kind)
+    _check_place(place, kind, [options.path, *files_read(options)])
     if options.path.is_dir():
         raise InputError(f"{options.path} is a folder; name one of the recordings in it.")
     library = Library([options.path], opening_from(options).open)
     entry = library.listing()[0]
     opened = library.open(entry)
     try:
-        if options.screenshot:
-            _export_picture(opened, parameters, options)
-        else:
-            _export_page(opened, parameters, options)
+        said = _MAKERS[kind](place, opened, parameters, options)
     finally:
         library.release(entry)
+    print(printable(f"{place}: {said}"))
     return 0
 
 
-def _export_picture(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
+def _check_place(place: Path, kind: str, inputs: list[Path]) -> None:
+    """Raise InputError if what is made cannot be written there."""
+    if kind == "images":
+        check_image_folder(place)
+    elif kind in _KINDS:
+        check_output_of(place, _KINDS[kind], inputs)
+    else:
+        check_output(place, PICTURE if kind == "screenshot" else PAGE, inputs)
+
+
+_KINDS = {"vector": VECTORS, "video": VIDEOS, "flow": FLOWS}
+
+
+def _make_picture(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
     from app.analysis.estimates import Estimates
-    from app.analysis.first_frame import first_frame_with_flow
-    from app.exports.picture import PictureSettings, picture
+    from app.exports.picture import picture
 
-    estimates, frame = Estimates(), options.frame
-    if frame is None:
-        frame = first_frame_with_flow(opened, parameters, estimates)
-    _check_frame(opened, frame)
-    width, height = options.size or (1600, 900)
+    estimates = Estimates()
+    frame = _frame(opened, parameters, options, estimates)
+    figure = _figure(options, "screenshot")
     pair = estimates.estimated(opened, frame, parameters)
-    views = _views(options)
-    framing = PictureSettings(width, height, views, options.transparent, options.legend)
-    content = picture(opened, pair, parameters, _settings(options), framing)
-    write(options.screenshot, content)
-    print(
-        printable(
-            f"{options.screenshot}: frame {frame} of {opened.recording.name}, "
-            f"{width * len(views)} x {height}."
+    write(place, picture(opened, pair, parameters, view_settings(options), figure))
+    return f"frame {frame} of {opened.recording.name}, {figure.size.text}."
+
+
+def _make_vector(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+    from app.exports.drawn_pair import DrawnPair
+    from app.exports.vector import vector_figure
+
+    estimates = Estimates()
+    frame = _frame(opened, parameters, options, estimates)
+    figure, settings = _figure(options, "vector"), view_settings(options)
+    drawn = DrawnPair(estimates.estimated(opened, frame, parameters))
+    content = vector_figure(opened.recording, drawn, parameters, settings, figure, _ending(place))
+    write(place, content)
+    return f"frame {frame} of {opened.recording.name}, {_amount(content)}."
+
+
+def _make_video(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+    from app.exports.ffmpeg import find_ffmpeg
+    from app.exports.video import MP4, video
+
+    animation, speed = _animation(opened, parameters, options, "video"), options.speed or 1.0
+    if _ending(place) == MP4:
+        find_ffmpeg()  # before the minutes of rendering
+    with _progress(animation.frames) as progress:
+        content = video(animation, _ending(place), speed, Estimates(), progress)
+    write(place, content)
+    seconds = sum(animation.seconds) / speed
+    return f"{_frames_text(animation.frames, opened)}, {seconds:.1f} s, {_amount(content)}."
+
+
+def _make_images(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+    from app.exports.captions import caption
+    from app.exports.pictures import png
+
+    animation = _animation(opened, parameters, options, "images")
+    with (
+        _progress(animation.frames) as progress,
+        closing(animation.pictures(Estimates(), progress)) as pictures,
+    ):
+        content = (
+            (k, png(picture, animation.figure.size, caption(opened.recording, parameters, k)))
+            for k, picture in zip(animation.frames, pictures, strict=True)
         )
-    )
+        write_image_folder(place, content)
+    return f"{_frames_text(animation.frames, opened)}, each {animation.figure.size.text}."
 
 
-def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Namespace) -> None:
+def _make_page(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
     from app.analysis.estimates import Estimates
     from app.exports.offline_page import offline_page
 
+    frames, settings = _frames(opened, options), view_settings(options)
+    view = view_names(options)[0]
+    page = offline_page(opened, frames, parameters, settings, view, Estimates(), lambda _: None)
+    content = page.encode()
+    write(place, content)
+    return f"{_frames_text(frames, opened)}, {_amount(content)}."
+
+
+def _make_flow(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+    from app.exports.flow_file import flow_file, flow_table
+
+    estimates = Estimates()
+    if options.frames is None:
+        frame = _frame(opened, parameters, options, estimates)
+        frames = range(frame, frame + 1)
+    else:
+        frames = _frames(opened, options)
+    pairs = (estimates.estimated(opened, k, parameters) for k in frames)
+    table = flow_table(pairs, several=options.frames is not None)
+    write(place, flow_file(opened.recording, parameters, table, _ending(place)))
+    return f"{_frames_text(frames, opened)}, {len(table)} points."
+
+
+_MAKERS: dict[str, Callable[[Path, "Opened", Parameters, argparse.Namespace], str]] = {
+    "screenshot": _make_picture,
+    "vector": _make_vector,
+    "video": _make_video,
+    "images": _make_images,
+    "html": _make_page,
+    "flow": _make_flow,
+}
+"""{what is made: how, which returns what is said of it}."""
+
+
+def _figure(options: argparse.Namespace, kind: str) -> "FigureSettings":
+    from app.exports.figure_settings import FigureSettings
+
+    return FigureSettings(
+        figure_size(options, kind),
+        view_names(options),
+        options.legend,
+        options.corner_line,
+        options.scale_bar,
+    )
+
+
+def _animation(
+    opened: "Opened", parameters: Parameters, options: argparse.Namespace, kind: str
+) -> "Animation":
+    from app.exports.animation import Animation
+
+    frames, settings = _frames(opened, options), view_settings(options)
+    return Animation(opened, frames, parameters, settings, _figure(options, kind))
+
+
+def _frame(
+    opened: "Opened", parameters: Parameters, options: argparse.Namespace, estimates: "Estimates"
+) -> int:
+    """The frame that is asked for, or one at which something moves.
+
+    Raises:
+        InputError: there is no such frame.
+    """
+    from app.analysis.first_frame import first_frame_with_flow
+
+    frame = options.frame
+    if frame is None:
+        frame = first_frame_with_flow(opened, parameters, estimates)
+    _check_frame(opened, frame)
+    return frame
+
+
+def _frames(opened: "Opened", options: argparse.Namespace) -> range:
+    """The frames that are asked for, or all.
+
+    Raises:
+        InputError: there are no such frames.
+    """
     first, last = options.frames or (None, None)
     first = 0 if first is None else first
     last = len(opened.recording) - 1 if last is None else last
@@ -142,56 +245,7 @@ def _export_page(opened: "Opened", parameters: Parameters, options: argparse.Nam
     _check_frame(opened, last)
     if first > last:
         raise InputError(f"The last frame must not be before the first; got {first}:{last}.")
-    frames = range(first, last + 1)
-    page = offline_page(
-        opened,
-        frames,
-        parameters,
-        _settings(options),
-        _views(options)[0],
-        Estimates(),
-        lambda _: None,
-    )
-    content = page.encode()
-    write(options.html, content)
-    print(
-        printable(
-            f"{options.html}: frames {first} to {last} of {opened.recording.name}, "
-            f"{len(content) / 1e6:.1f} MB."
-        )
-    )
-
-
-def _views(options: argparse.Namespace) -> tuple[str, ...]:
-    from app.scene.views import VIEWS
-
-    names = {view.lower(): view for view in VIEWS}
-    return tuple(names[view] for view in options.view)
-
-
-def _settings(options: argparse.Namespace) -> "ViewSettings":
-    from app.scene.palettes import PALETTES
-    from app.scene.settings import ARROW_COLOURS, ViewSettings
-
-    return ViewSettings(
-        colours=dict(zip(_COLOURS, PALETTES, strict=True))[options.colours],
-        arrow_colours=dict(zip(_ARROWS, ARROW_COLOURS, strict=True))[options.arrows],
-        dark=options.dark,
-    )
-
-
-def _check_flags(options: argparse.Namespace) -> None:
-    """Raise InputError for a flag that does not apply to the kind of export."""
-    if options.html and len(options.view) > 1:
-        raise InputError(f"An offline page has one view, got {len(options.view)}: --view 3d.")
-    made, other, others = (
-        ("--screenshot", "--html", ("frames",))
-        if options.screenshot
-        else ("--html", "--screenshot", ("frame", "size", "transparent", "legend"))
-    )
-    for name in others:
-        if getattr(options, name) not in (None, False):
-            raise InputError(f"--{name} applies only to {other}, not to {made}; leave it out.")
+    return range(first, last + 1)
 
 
 def _check_frame(opened: "Opened", frame: int) -> None:
@@ -202,21 +256,28 @@ def _check_frame(opened: "Opened", frame: int) -> None:
         )
 
 
-def _size(text: str) -> tuple[int, int]:
-    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
-    sides = (int(found[1]), int(found[2])) if found else (0, 0)
-    if not all(_SIDE[0] <= side <= _SIDE[1] for side in sides):
-        raise argparse.ArgumentTypeError(
-            f"a size is written 1600x900, each side from {_SIDE[0]} to {_SIDE[1]}, got {text!r}"
-        )
-    return sides
+@contextmanager
+def _progress(frames: Sequence[int]) -> Iterator[Callable[[int], None]]:
+    """Context with a function of how many pictures are done, which shows it at a terminal."""
+    console = terminal()
+    if console is None:
+        yield lambda _: None
+        return
+    bar = Bar(console, len(frames))
+    try:
+        yield lambda done: bar.show(done, f"frame {frames[done]}")
+    finally:
+        bar.hide()
 
 
-def _range(text: str) -> tuple[int | None, int | None]:
-    found = re.fullmatch(r"(\d*):(\d*)", text)
-    if not found:
-        raise argparse.ArgumentTypeError(
-            f"frames are written FIRST:LAST, such as 20:80, got {text!r}"
-        )
-    first, last = found.groups()
-    return (int(first) if first else None, int(last) if last else None)
+def _ending(place: Path) -> str:
+    return place.suffix.lower().removeprefix(".")
+
+
+def _frames_text(frames: Sequence[int], opened: "Opened") -> str:
+    which = f"frames {frames[0]} to {frames[-1]}" if len(frames) > 1 else f"frame {frames[0]}"
+    return f"{which} of {opened.recording.name}"
+
+
+def _amount(content: bytes) -> str:
+    return f"{len(content) / 1e6:.1f} MB"

@@ -31,7 +31,10 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
         nargs="*",
         type=Path,
         metavar="PATH",
-        help="a recording, several, or a folder of them (*.mcap); default: the shipped samples",
+        help=(
+            "a recording, several, or a folder of them (*.mcap, also in the folders below); "
+            "default: the shipped samples"
+        ),
     )
     parser.add_argument(
         "--host",

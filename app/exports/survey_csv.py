@@ -3,48 +3,71 @@
 import csv
 import io
 import re
+from collections.abc import Mapping
 
 import numpy as np
 
+from app.analysis.quantities import QUANTITIES, Quantity, times
 from app.analysis.survey import Survey
 from app.output.text import csv_cell, escaped
-from estimator import METRIC_INFO, to_nested
+from estimator import to_nested
 from recordings import Recording
 
+_COUNTS = "counts in the means [0 or 1]"
 
-def to_csv(recording: Recording, survey: Survey) -> str:
-    """Write a survey as CSV: a comment line, a header with units, and a line per frame.
+
+def to_csv(recording: Recording, surveys: Mapping[str, Survey]) -> str:
+    """Write surveys as CSV: a comment line for each, a header with units, and a line per frame.
 
     Undefined values are left empty.
+
+    Args:
+        recording: of the surveys.
+        surveys: {A or B: its survey}; with two, the names of the columns begin with A or B.
     """
-    stamps = recording.stamps
     columns = {
-        "stamp [s]": [f"{stamp:.9f}" for stamp in stamps],
-        "time [s]": _texts(stamps - stamps[0], ".6f"),
-        "moving points [count]": _texts(survey.moving, ".0f"),
-        "speed estimated [m/s]": _texts(survey.speed, ".6g"),
-        "speed true [m/s]": _texts(survey.true_speed, ".6g"),
-    } | {
-        f"{METRIC_INFO[name].title} [{METRIC_INFO[name].unit or 1}]": _texts(values, ".6g")
-        for name, values in survey.metrics.items()
+        "stamp [s]": [f"{stamp:.9f}" for stamp in recording.stamps],
+        "time [s]": _texts(times(recording), ".6f"),
     }
     text = io.StringIO()
-    text.write(f"# {_heading(recording, survey)}\n")
+    for side, survey in surveys.items():
+        name = f"{side}: " if len(surveys) > 1 else ""
+        text.write(f"# {_heading(recording, survey, name)}\n")
+        columns |= {name + title: cells for title, cells in _columns(recording, survey).items()}
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["frame", *columns])
-    rows = zip(range(len(survey)), *columns.values(), strict=True)
+    rows = zip(range(len(recording)), *columns.values(), strict=True)
     writer.writerows(map(csv_cell, row) for row in rows)
     return text.getvalue()
 
 
-def _heading(recording: Recording, survey: Survey) -> str:
+def _columns(recording: Recording, survey: Survey) -> dict[str, list[str]]:
+    """{heading: cells} of all that a survey holds."""
+    columns = {
+        _heading_of(quantity): _texts(
+            quantity.values(recording, survey), ".0f" if quantity.kind == "count" else ".6g"
+        )
+        for name, quantity in QUANTITIES.items()
+        if name != "time"
+    }
+    if recording.has_truth:
+        columns[_COUNTS] = [str(int(counts)) for counts in survey.counts]
+    return columns
+
+
+def _heading_of(quantity: Quantity) -> str:
+    unit = {"°": "deg", "": "count" if quantity.kind == "count" else "1"}
+    return f"{quantity.title} [{unit.get(quantity.unit, quantity.unit)}]"
+
+
+def _heading(recording: Recording, survey: Survey, name: str) -> str:
     parameters = "; ".join(
         f"{name}={value}" for name, value in to_nested(survey.parameters).items()
     )
     origin = "simulated" if recording.simulated else "measured"
     # A line break would end the comment, and what separates cells would let one begin in the name.
-    name = " ".join(re.split(r'[\s,;"]+', escaped(recording.path.name)))
-    heading = f"Tofscope; recording {name}; {origin}; {parameters}"
+    file = " ".join(re.split(r'[\s,;"]+', escaped(recording.path.name)))
+    heading = f"{name}Tofscope; recording {file}; {origin}; {parameters}"
     if not survey.complete:
         heading += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"
     return heading

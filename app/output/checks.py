@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -58,6 +58,20 @@ def check_output(path: Path, kind: OutputKind, inputs: Iterable[Path] = ()) -> N
             raise InputError(
                 f"{path} exists and was not made by this command; remove it or give another name."
             )
+
+
+def check_output_of(
+    path: Path, kinds: Mapping[str, OutputKind], inputs: Iterable[Path] = ()
+) -> None:
+    """`check_output` for the kind that a file's ending names, {ending: kind}.
+
+    Raises:
+        InputError: it names none of them, or as by `check_output`.
+    """
+    kind = kinds.get(path.suffix.lower())
+    if kind is None:
+        raise InputError(f"{path} must end in {' or '.join(kinds)}, so that its format is known.")
+    check_output(path, kind, inputs)
 
 
 def check_writable(path: Path) -> None:

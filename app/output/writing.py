@@ -8,7 +8,9 @@ from uuid import uuid4
 
 from app.errors import InputError
 
-_DRAFT = ".tofscope-{}.part"
+DRAFT = ".tofscope-{}.part"
+"""Name of what is being written, until it is whole."""
+
 _ABANDONED = 3600.0
 """Seconds after which a draft, which is written in a few, is that of a process that was killed."""
 
@@ -34,7 +36,7 @@ def write(path: Path, content: bytes) -> None:
 def _replace(path: Path, content: bytes) -> None:
     _remove_abandoned(path.parent)
     # A name of its own for every writer: two of them at once both succeed.
-    draft = path.with_name(_DRAFT.format(uuid4().hex))
+    draft = path.with_name(DRAFT.format(uuid4().hex))
     try:
         with draft.open("xb") as stream:
             stream.write(content)
@@ -52,7 +54,7 @@ def _replace(path: Path, content: bytes) -> None:
 
 def _remove_abandoned(folder: Path) -> None:
     latest = time.time() - _ABANDONED
-    for draft in folder.glob(_DRAFT.format("*")):
+    for draft in folder.glob(DRAFT.format("*")):
         with contextlib.suppress(OSError):
             if draft.stat().st_mtime < latest:
                 draft.unlink()

@@ -35,13 +35,13 @@ def cluster_table(
         attributes: HTML attributes of a cluster's row, for clicks.
     """
     has_rounds = any(cluster.rounds for cluster in clusters)
-    head = ("", "Points", *(("Fitness", "Displ.") if has_rounds else ()), "Label")
+    head = ("", "Points", *(("Fitness", "Displacement") if has_rounds else ()), "Label")
     rows = [
         TableRow(
             cells=(
                 str(cluster.index),
                 f"{len(cluster.source)} / {len(cluster.target)}",
-                *(_last_round(cluster) if has_rounds else ()),
+                *(_telling_cells(cluster) if has_rounds else ()),
                 f"{swatch(cluster.label, palette)}{cluster.label.name.lower()}",
             ),
             mark=palette.picked if cluster.index == picked else None,
@@ -66,7 +66,7 @@ def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> s
         TableRow(_round_cells(count, turn, parameters, removes=count <= removing))
         for count, turn in enumerate(cluster.rounds, start=1)
     ]
-    head = ("Round", "Points", "Fitness", "Displ.", "Removed")
+    head = ("Round", "Points", "Fitness", "Displaced", "Removed")
     note = (
         '<div style="opacity: 0.65">Points: source / target. Beneath: what it is above (+) or '
         "below (−) N_min, γ and δ.</div>"
@@ -95,14 +95,27 @@ def legend(palette: Palette) -> str:
         for label in (Label.MOVING, Label.STATIONARY, Label.UNASSIGNED)
     )
     return framed(
-        f"{labels}<div>Clusters, by their last round; those without a round are left out. "
+        f"{labels}<div>Clusters, by the round that decided, or the one of the highest fitness; "
+        "those without a round are left out. "
         f'<span style="color: {css(palette.picked)}">▲</span> the picked one.</div>'
     )
 
 
-def _last_round(cluster: ClusterResult) -> tuple[str, str]:
-    displacement = number(1e3 * cluster.mean_displacement, ".0f", " mm")
-    return number(cluster.fitness, ".2f"), displacement
+def telling_round(cluster: ClusterResult) -> IcpRound | None:
+    """The round that decided, or the one of the highest fitness where none did; None without any.
+
+    An unassigned cluster's last round is often left with no points, which tells nothing.
+    """
+    if not cluster.rounds or cluster.label is not Label.UNASSIGNED:
+        return cluster.rounds[-1] if cluster.rounds else None
+    return max(cluster.rounds, key=lambda turn: turn.fitness)
+
+
+def _telling_cells(cluster: ClusterResult) -> tuple[str, str]:
+    turn = telling_round(cluster)
+    if turn is None:
+        return number(None, ""), number(None, "")
+    return number(turn.fitness, ".2f"), number(turn.mean_displacement, ".3f", " m")
 
 
 def _own_story(cluster: ClusterResult) -> str:
@@ -128,12 +141,13 @@ def _round_cells(
     count: int, turn: IcpRound, parameters: Parameters, *, removes: bool
 ) -> tuple[str, ...]:
     most = max(turn.source_size, turn.target_size)
-    displacement = 1e3 * turn.mean_displacement
     return (
         str(count),
         _with_margin(f"{turn.source_size} / {turn.target_size}", most - parameters.n_min, "+d"),
         _with_margin(f"{turn.fitness:.2f}", turn.fitness - parameters.gamma, "+.2f"),
-        _with_margin(f"{displacement:.0f} mm", displacement - 1e3 * parameters.delta, "+.0f"),
+        _with_margin(
+            f"{turn.mean_displacement:.3f} m", turn.mean_displacement - parameters.delta, "+.3f"
+        ),
         f"{len(turn.inlier_source)} / {len(turn.inlier_target)}" if removes else "none",
     )
 

@@ -4,11 +4,12 @@ from dataclasses import dataclass, replace
 
 import viser
 
-from app.analysis.comparison import A, B, Comparison
+from app.analysis.comparison import A, B, Comparison, by_side
 from app.browser.controls import show_value
 from app.errors import InputError
-from app.panels.differences import changes, difference_table
+from app.panels.differences import Totals, changes, difference_table, totals
 from app.panels.panel import Panel, PanelContext
+from app.panels.plot_words import progress
 from app.panels.tables import framed
 from app.panels.triggers import post_on
 from app.scene.colours import css
@@ -83,29 +84,28 @@ class RemoveB(LatestWins):
 
 
 class ComparePanel(Panel):
-    """Controls of the comparison, and a table of the differences on the current pair."""
+    """Controls of the comparison, and a table of the current pair and the whole recording."""
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
         self._last: Comparison | None = None
-        with gui.add_folder("Compare", expand_by_default=False):
-            self._state = gui.add_html("")
-            copy = gui.add_button(
-                "Copy A to B",
-                icon=viser.Icon.COPY,
-                color="gray",
-                hint="B begins as A is now; change it with the controls of the parameters.",
-            )
-            self._switch = gui.add_button(
-                "Switch to B", icon=viser.Icon.SWITCH_HORIZONTAL, visible=False, hint="Key B"
-            )
-            self._both = gui.add_checkbox(
-                "Draw both", False, visible=False, hint="The flow of A and of B in the scene."
-            )
-            self._table = gui.add_html("")
-            self._remove = gui.add_button(
-                "Remove B", icon=viser.Icon.X, color="gray", visible=False
-            )
+        self._counted: tuple[object, ...] = ()
+        self._totals: dict[str, Totals | None] = {}
+        self._state = gui.add_html("")
+        copy = gui.add_button(
+            "Copy A to B",
+            icon=viser.Icon.COPY,
+            color="gray",
+            hint="B begins as A is now; change it with the controls of the parameters.",
+        )
+        self._switch = gui.add_button(
+            "Switch to B", icon=viser.Icon.SWITCH_HORIZONTAL, visible=False, hint="Key B"
+        )
+        self._both = gui.add_checkbox(
+            "Draw both", False, visible=False, hint="The flow of A and of B in the scene."
+        )
+        self._table = gui.add_html("")
+        self._remove = gui.add_button("Remove B", icon=viser.Icon.X, color="gray", visible=False)
         switching = gui.add_command(
             "Compare: switch between A and B", hotkey="B", icon=viser.Icon.SWITCH_HORIZONTAL
         )
@@ -147,10 +147,28 @@ class ComparePanel(Panel):
             f"<b>{edited}</b> is shown, and what the parameters' controls change.{legend}"
         )
         of_a, of_b = comparison.in_order(snapshot.parameters, comparison.other)
-        pairs = comparison.in_order(snapshot.pair, snapshot.other)
-        missing = (
-            ""
-            if snapshot.other or not snapshot.pair
-            else f"<div>{other} is not estimated here; switch to it or draw both.</div>"
-        )
-        self._table.content = framed(changes(of_a, of_b) + difference_table(*pairs) + missing)
+        self._table.content = framed(changes(of_a, of_b) + self._numbers(snapshot, comparison))
+
+    def _numbers(self, snapshot: Snapshot, comparison: Comparison) -> str:
+        surveys = by_side(comparison, snapshot.survey, snapshot.other_survey)
+        state = (*surveys.values(), snapshot.survey_revision, snapshot.other_survey_revision)
+        if state != self._counted:
+            self._counted = state
+            self._totals = {side: totals(s) if s else None for side, s in surveys.items()}
+        pairs = by_side(comparison, snapshot.pair, snapshot.other)
+        has_truth = snapshot.opened.recording.has_truth
+        counts = {
+            side: ("yes" if s.counts[snapshot.frame] else "no") if s and has_truth else "–"
+            for side, s in surveys.items()
+        }
+        share, frames = progress(surveys)
+        missing = next((side for side, pair in pairs.items() if pair is None), None)
+        sentences = [
+            "Bold: the better one. Errors are means over the pairs that count.",
+            f"Whole recording so far: {frames or 'nothing yet'}." if share < 1 else "",
+            f"{missing} is not estimated here; switch to it or draw both."
+            if missing and snapshot.pair
+            else "",
+        ]
+        said = "".join(f"<div>{sentence}</div>" for sentence in sentences if sentence)
+        return difference_table(pairs, self._totals, counts) + said

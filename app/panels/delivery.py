@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 import viser
 
+from app.browser.plots import enlarge_plots
 from app.browser.script import copy_link
 from app.output.text import escaped
-from app.session.outbox import Download, LinkToCopy, Message, Notice
+from app.session.outbox import Download, EnlargePlots, LinkToCopy, Message, Notice
 from app.session.tasks import TaskState
 
 
@@ -32,6 +33,8 @@ class Delivery:
                     self._client.send_file_download(name, content, save_immediately=True)
                 case LinkToCopy(token):
                     copy_link(self._client, token)
+                case EnlargePlots():
+                    enlarge_plots(self._client)
 
     def show_tasks(self, tasks: Sequence[TaskState]) -> None:
         """Show these tasks as running, and close notifications of ended ones."""

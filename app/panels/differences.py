@@ -1,37 +1,90 @@
-"""Differences between two estimates of one frame, as HTML tables."""
+"""Differences between two sets of parameters, in a frame and over the recording, as HTML tables."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
+from dataclasses import dataclass
 from html import escape
 
+import numpy as np
+
+from app.analysis.comparison import A, B
 from app.analysis.pairs import Pair
-from app.panels.tables import PLOTTED, TableRow, metric_label, number, table
+from app.analysis.quantities import QUANTITIES
+from app.analysis.survey import Survey
+from app.panels.tables import PLOTTED, TableRow, number, table
 from estimator import METRIC_INFO, PARAMETER_INFO, Label, Parameters, all_methods, values_of
 
 _NAN = float("nan")
+_COUNTED = ("moving", "stationary", "unassigned", "clusters")
+_ROWS = (*_COUNTED, *PLOTTED)
+_LABELS = {"moving": Label.MOVING, "stationary": Label.STATIONARY, "unassigned": Label.UNASSIGNED}
+
+Numbers = Mapping[str, float]
+"""{quantity: value}, NaN where undefined."""
 
 
-def _labelled(label: Label) -> Callable[[Pair], float]:
-    return lambda pair: float((pair.flow.label == label).sum()) if pair.flow else _NAN
+@dataclass(frozen=True)
+class Totals:
+    """Numbers of a side over the whole recording, as far as it is computed.
+
+    Attributes:
+        numbers: sums of what is counted, and pooled errors.
+        counting: number of pairs that count, and of all, in words.
+        complete: whether every frame is computed.
+    """
+
+    numbers: Numbers
+    counting: str
+    complete: bool
 
 
-def _error(name: str) -> Callable[[Pair], float]:
-    return lambda pair: getattr(errors, name) if (errors := pair.errors) else _NAN
+def totals(survey: Survey) -> Totals:
+    """The totals of a survey."""
+    metrics = survey.summary()
+    sums = {name: float(np.nansum(getattr(survey, name))) for name in _COUNTED}
+    return Totals(
+        sums | {name: getattr(metrics, name) for name in PLOTTED},
+        f"{np.count_nonzero(survey.counts)} of {survey.pairs}",
+        survey.complete,
+    )
 
 
-_ROWS: dict[str, tuple[str, Callable[[Pair], float]]] = {
-    "Moving": (".0f", _labelled(Label.MOVING)),
-    "Stationary": (".0f", _labelled(Label.STATIONARY)),
-    "Unassigned": (".0f", _labelled(Label.UNASSIGNED)),
-    "Clusters": (".0f", lambda pair: len(pair.flow.clusters) if pair.flow else _NAN),
-    **{metric_label(name): (METRIC_INFO[name].spec, _error(name)) for name in PLOTTED},
-}
-"""{quantity: format, function from a pair to its value}; NaN where undefined."""
+def numbers_of(pair: Pair | None) -> Numbers:
+    """The numbers of one pair."""
+    if pair is None or pair.flow is None:
+        return {}
+    flow, errors = pair.flow, pair.errors
+    counted = {name: float(np.count_nonzero(flow.label == of)) for name, of in _LABELS.items()}
+    counted["clusters"] = len(flow.clusters)
+    return counted | {n: getattr(errors, n) if errors else _NAN for n in PLOTTED}
 
 
-def difference_table(of_a: Pair | None, of_b: Pair | None) -> str:
-    """Table of numbers with A, with B, and B - A; a dash where unknown."""
-    rows = [TableRow((name, *_cells(name, of_a, of_b))) for name in _ROWS]
-    return table(("", "A", "B", "B − A"), rows)
+def difference_table(
+    pairs: Mapping[str, Pair | None], whole: Mapping[str, Totals | None], counts: Mapping[str, str]
+) -> str:
+    """Table of A and B in this frame and over the whole recording, the better value bold.
+
+    Args:
+        pairs: {A or B: its pair in this frame, None where it is not estimated}.
+        whole: {A or B: its totals, None before there are any}.
+        counts: {A or B: whether its pair counts in the means, in words}.
+    """
+    of_frame = {side: numbers_of(pair) for side, pair in pairs.items()}
+    of_whole = {side: known.numbers if known else {} for side, known in whole.items()}
+    complete = all(known is not None and known.complete for known in whole.values())
+    rows = [
+        TableRow(
+            (
+                QUANTITIES[name].label.removesuffix(" points"),
+                *_cells(name, of_frame, marked=True),
+                *_cells(name, of_whole, marked=complete),
+            )
+        )
+        for name in _ROWS
+    ]
+    counting = [known.counting if known else "–" for known in whole.values()]
+    rows.append(TableRow(("Pairs that count", *counts.values(), *counting)))
+    groups = (("", 1), ("This frame", 2), ("Whole recording", 2))
+    return table(("", A, B, A, B), rows, groups)
 
 
 def changes(of_a: Parameters, of_b: Parameters) -> str:
@@ -57,8 +110,15 @@ def _written(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def _cells(name: str, of_a: Pair | None, of_b: Pair | None) -> tuple[str, str, str]:
-    form, value = _ROWS[name]
-    a, b = (_NAN if pair is None else value(pair) for pair in (of_a, of_b))
-    signed_form = f"+{form.removeprefix('+')}"
-    return number(a, form), number(b, form), number(b - a, signed_form)
+def _cells(name: str, sides: Mapping[str, Numbers], *, marked: bool) -> tuple[str, str]:
+    """The values of A and B; a hint says their difference."""
+    form = QUANTITIES[name].spec
+    a, b = (sides[side].get(name, _NAN) for side in (A, B))
+    written = [number(value, form) for value in (a, b)]
+    if marked and name in METRIC_INFO and written[0] != written[1]:
+        ranks = [METRIC_INFO[name].rank(value) for value in (a, b)]
+        if ranks[0] != ranks[1] and not np.isnan(ranks).any():
+            better = int(np.argmin(ranks))
+            written[better] = f"<b>{written[better]}</b>"
+    difference = number(b - a, f"+{form.removeprefix('+')}")
+    return written[0], f'<span title="B − A: {difference}">{written[1]}</span>'

@@ -9,8 +9,8 @@ import viser
 from app.analysis.pairs import Pair
 from app.analysis.selection import cluster_of
 from app.browser.controls import show_value
-from app.browser.fields import sets, unfold
-from app.panels.cluster_story import cluster_table, legend, story
+from app.browser.fields import sets
+from app.panels.cluster_story import cluster_table, legend, story, telling_round
 from app.panels.histograms import Histogram, upper_limit
 from app.panels.panel import Panel, PanelContext
 from app.panels.tables import framed
@@ -21,7 +21,6 @@ from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
 from estimator import ClusterResult, Parameters
 
-_FOLDER = "Explain"
 _NONE: str = "none"
 _STEP = 0.05  # width of a bar of the fitness
 _BARS = 20  # of the displacement
@@ -57,20 +56,17 @@ class ExplainPanel(Panel):
 
     def __init__(self, context: PanelContext) -> None:
         gui, post = context.client.gui, context.post
-        self._client = context.client
-        self._picked_in_scene = 0
         self._pair: Pair | None = None
         self._shown: tuple[int | None, Palette] | None = None
-        with gui.add_folder(_FOLDER, expand_by_default=False):
-            self._list = gui.add_dropdown(
-                "Cluster",
-                (_NONE,),
-                hint="Or click on its row below, or on one of its points in the scene.",
-            )
-            self._story = gui.add_html("")
-            self._table = gui.add_html("")
-            self._fitness = gui.add_html("")
-            self._displacement = gui.add_html("")
+        self._list = gui.add_dropdown(
+            "Cluster",
+            (_NONE,),
+            hint="Or click on its row below, or on one of its points in the scene.",
+        )
+        self._table = gui.add_html("")
+        self._story = gui.add_html("")
+        self._fitness = gui.add_html("")
+        self._displacement = gui.add_html("")
 
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
@@ -84,9 +80,6 @@ class ExplainPanel(Panel):
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the clusters of the pair, and the picked one's story."""
-        if snapshot.picked_in_scene != self._picked_in_scene:
-            self._picked_in_scene = snapshot.picked_in_scene
-            unfold(self._client, _FOLDER)
         pair = snapshot.pair
         if pair is None or pair.flow is None:
             self._pair = None
@@ -131,27 +124,29 @@ class ExplainPanel(Panel):
         palette: Palette,
     ) -> None:
         """Draw fitness and displacement of all clusters, for methods that have rounds of ICP."""
-        if not any(cluster.rounds for cluster in clusters):
+        told = [(cluster, turn) for cluster in clusters if (turn := telling_round(cluster))]
+        if not told:
             self._fitness.content = self._displacement.content = ""
             return
+        marked = telling_round(picked) if picked else None
         self._fitness.content = Histogram(
             title="Fitness",
-            values=[(cluster.fitness, cluster.label) for cluster in clusters],
+            values=[(turn.fitness, cluster.label) for cluster, turn in told],
             upper=1.0,
             bars=round(1.0 / _STEP),
             threshold=("γ", parameters.gamma),
             palette=palette,
-            marked=picked.fitness if picked else None,
+            marked=marked.fitness if marked else None,
         ).svg()
-        moved = [1e3 * cluster.mean_displacement for cluster in clusters]
+        moved = [(turn.mean_displacement, cluster.label) for cluster, turn in told]
         self._displacement.content = Histogram(
-            title="Mean displacement [mm]",
-            values=[(value, cluster.label) for value, cluster in zip(moved, clusters, strict=True)],
-            upper=upper_limit([*moved, 2e3 * parameters.delta]),
+            title="Mean displacement [m]",
+            values=moved,
+            upper=upper_limit([*(value for value, _ in moved), 2 * parameters.delta]),
             bars=_BARS,
-            threshold=("δ", 1e3 * parameters.delta),
+            threshold=("δ", parameters.delta),
             palette=palette,
-            marked=1e3 * picked.mean_displacement if picked else None,
+            marked=marked.mean_displacement if marked else None,
         ).svg() + legend(palette)
 
     def _choices(self, indices: dict[str, int | None], picked: int | None) -> None:

@@ -11,14 +11,14 @@ from app.session.outbox import LinkToCopy, Notice
 from app.session.workbench import Workbench
 
 _SENTENCE = (
-    "To this recording, frame, camera and parameters. It is copied, or shown to be copied where "
-    "the browser keeps its clipboard closed."
+    "The link leads to what this page shows now. It is in the clipboard; where the browser does "
+    "not allow that, a box shows it for copying."
 )
 
 
 @dataclass(frozen=True)
 class CopyLink(LatestWins):
-    """Copy a link to the current recording, frame, camera and parameters."""
+    """Copy a link to what is shown."""
 
     def apply(self, workbench: Workbench) -> None:
         """Send the link and a notice to the browser."""
@@ -34,7 +34,10 @@ class LinkPanel(Panel):
 
     def __init__(self, context: PanelContext) -> None:
         button = context.client.gui.add_button(
-            "Copy link", icon=viser.Icon.LINK, hint="To recording, frame, camera and parameters."
+            "Copy link",
+            icon=viser.Icon.LINK,
+            hint="To what is shown: recording, frame, camera, view, picked cluster, and the "
+            "parameters of A and B.",
         )
         entry = context.client.gui.add_command("Copy link", icon=viser.Icon.LINK)
         post_on(context.post, CopyLink(), button, entry)

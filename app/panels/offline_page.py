@@ -12,7 +12,7 @@ from app.exports.file_names import safe
 from app.exports.offline_page import offline_page
 from app.panels.panel import Panel, PanelContext
 from app.panels.triggers import post_on
-from app.scene.views import THREE_D
+from app.scene.views import SLANTED
 from app.session.command import LatestWins
 from app.session.links import SavedSession
 from app.session.outbox import Download, Message, Notice
@@ -79,7 +79,7 @@ def _make(
             frames,
             saved.parameters,
             saved.settings,
-            saved.camera or THREE_D,
+            saved.camera or SLANTED,
             estimates,
             progress,
             saved.comparison,

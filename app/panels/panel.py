@@ -1,11 +1,12 @@
 """Base class of the page's panels, which post commands and show snapshots."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import viser
 
-from app.analysis.library import Entry, Opened
+from app.analysis.library import Opened
+from app.browser.page_events import PageEvents
 from app.scene.settings import ViewSettings
 from app.session.command import Command
 from app.session.snapshot import Snapshot, Status
@@ -18,17 +19,17 @@ class PanelContext:
 
     Attributes:
         client: the browser client.
-        entries: listed recordings, at least one.
         parameters: initial ones.
         settings: initial ones.
         post: queues a command; thread-safe.
+        events: of our own elements in the page.
     """
 
     client: viser.ClientHandle
-    entries: Sequence[Entry]
     parameters: Parameters
     settings: ViewSettings
     post: Callable[[Command], None]
+    events: PageEvents
 
 
 class Panel:

@@ -16,7 +16,15 @@ def label_of(name: str, info: ParameterInfo) -> str:
     """Label of a parameter's control: its symbol, or its name without the method's prefix."""
     # Longer words would be broken in the label's column.
     plain = name.rpartition(".")[2].replace("_", " ").replace("correspondence", "corresp.")
-    return info.symbol or plain
+    unit = f" [{info.unit}]" if len(info.unit) == 1 and not info.slider else ""
+    return (info.symbol or plain) + unit
+
+
+def range_of(info: ParameterInfo) -> tuple[float, float]:
+    """(smallest, largest) number that a parameter's control takes."""
+    if info.slider:
+        return info.slider[0], info.slider[1]
+    return (UNSET if info.optional else info.low), info.high
 
 
 def shown_value(value: object) -> Any:  # noqa: ANN401 (of any parameter)
@@ -42,13 +50,14 @@ def add_control(gui: viser.GuiApi, name: str, info: ParameterInfo, value: Any) -
         return gui.add_checkbox(label, value, hint=hint)
     if info.kind is str:
         return gui.add_text(label, value, hint=hint)
-    # Without limits, which would silently change typed values: values out of range are refused with
-    # a reason.
+    low, high = (info.kind(end) if abs(end) < float("inf") else None for end in range_of(info))
     return gui.add_number(
         label,
         initial_value=shown_value(value),
+        min=low,
+        max=high,
         step=0.01 if info.kind is float else 1,
-        hint=hint + (f" ({UNSET}: unset)" if info.optional else ""),
+        hint=hint,
     )
 
 
@@ -72,6 +81,15 @@ def _add_slider(
 
 
 def _hint(info: ParameterInfo) -> str:
-    text = f"{info.text} [{info.unit}]" if info.unit else info.text
-    known = info.default is not None and info.kind is not bool
-    return f"{text}; default {info.default}" if known else text
+    text = info.text[:1].upper() + info.text[1:]
+    unit = f" {info.unit}" if info.unit else ""
+    said = [text]
+    if info.kind in (int, float):
+        low, high = range_of(info)
+        ends = f"From {low:g} to {high:g}{unit}"
+        if info.optional:
+            ends = f"From {info.low:g} to {high:g}{unit}, or {UNSET} for unset"
+        said.append(f"{ends}; a number beyond becomes the nearest")
+    if info.kind is not bool:
+        said.append(f"Default {'unset' if info.default is None else info.default}")
+    return ". ".join(said) + "."

@@ -1,30 +1,31 @@
-"""Controls of the estimator's parameters."""
+"""Controls of the estimator's parameters: sliders and method first, all others elsewhere."""
 
-import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Self
 
+import numpy as np
 import viser
 
+from app.analysis.library import Opened
 from app.browser.controls import show_value
 from app.panels.panel import Panel, PanelContext
 from app.panels.parameter_controls import (
     add_control,
     entered_value,
     label_of,
+    range_of,
     shown_value,
 )
 from app.panels.triggers import post_on
 from app.session.command import Command
 from app.session.commands import ChangeParameters, ResetParameters
-from app.session.snapshot import Snapshot, Status
-from app.session.tuning import Refusal
+from app.session.snapshot import Status
 from app.session.workbench import Workbench
 from estimator import PARAMETER_INFO, ParameterInfo, all_methods, find_method, values_of
 
-_READING = 4.0  # seconds to show a refusal after the old value was restored
+_LONGEST = 1.35  # seconds: how far back n reaches at least, whatever the recording's rate
 
 
 @dataclass(frozen=True)
@@ -42,83 +43,45 @@ class UndoParameters:
         workbench.tuning.undo(self.changes)
 
 
-class ParametersPanel(Panel):
-    """Controls of the method's parameters; values out of range are refused with a reason."""
+class _ControlsPanel(Panel):
+    """Controls of some parameters; a number beyond its range becomes the nearest in it."""
 
-    def __init__(self, context: PanelContext) -> None:
-        gui, post = context.client.gui, context.post
-        self._infos = {"method": PARAMETER_INFO["method"], **_all_infos()}
+    def __init__(self, context: PanelContext, infos: dict[str, ParameterInfo]) -> None:
+        gui, self._infos = context.client.gui, infos
         self._controls: dict[str, Any] = {}
-        self._refused: set[str] = set()  # parameters whose controls hold a refused value
-        self._clamped: set[str] = set()
-        self._readable_until = 0.0
+        self._ranges = {name: range_of(info) for name, info in infos.items()}
         self._revision = 0
         self._method: str | None = None
-        self._resets: dict[str, frozenset[str]] = {"All": frozenset(self._infos)}
-        sliders = [name for name, info in self._infos.items() if info.slider]
         values = values_of(context.parameters)
-        self._folder = gui.add_folder("Parameters")
-        with self._folder:
-            for name in (*sliders, "method"):
-                self._controls[name] = add_control(gui, name, self._infos[name], values[name])
-            self._refusal = gui.add_html("", visible=False)
-            self._more = gui.add_folder("More parameters", expand_by_default=False)
-            with self._more:
-                folded = frozenset(self._infos) - self._controls.keys()
-                for name in (name for name in self._infos if name in folded):
-                    self._controls[name] = add_control(gui, name, self._infos[name], values[name])
-                reset_folded = gui.add_button(
-                    "Reset these",
-                    icon=viser.Icon.RESTORE,
-                    color="gray",
-                    hint="To what the app was started with.",
-                )
-            self._reset = gui.add_button_group(
-                "Reset", tuple(self._resets), hint="To what the app was started with."
-            )
-            history = gui.add_button_group(
-                "History", ("Undo", "Redo"), hint="Of the parameters. Keys: Ctrl+Z, Ctrl+Shift+Z."
-            )
-
+        for name, info in infos.items():
+            self._controls[name] = add_control(gui, name, info, values[name])
+        self._correction = gui.add_html("")
         for name in self._controls:
-            self._connect(name, post)
-
-        @self._reset.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(ResetParameters(self._resets.get(self._reset.value, frozenset())))
-
-        @history.on_click
-        async def _(_: viser.GuiEvent) -> None:
-            post(UndoParameters(1 if history.value == "Undo" else -1))
-
-        post_on(post, ResetParameters(folded), reset_folded)
-        _add_commands(gui, frozenset(self._infos), post)
+            self._connect(name, context.post)
         self._show_controls(context.parameters.method)
 
-    def show(self, snapshot: Snapshot) -> None:
-        """Name the edited side, A or B, in the folder's title."""
-        compared = snapshot.comparison
-        self._folder.label = f"Parameters of {compared.edited}" if compared else "Parameters"
-
     def announce(self, status: Status) -> None:
-        """Show values that were set other than by their controls, and refusals.
+        """Show values that were set other than by their controls, and what was corrected.
 
-        Other controls are left alone, since the user may be moving them. A refused value stays in
-        its control, so that the user can go on typing, until it is accepted, clamped or replaced.
+        Other controls are left alone, since the user may be moving them.
         """
         values = values_of(status.parameters)
         for name, control in self._controls.items():
             if self._infos[name].slider:
-                # Typed or loaded values may exceed the slider's range.
-                control.max = max(control.max, values[name])
-                control.min = min(control.min, values[name])
-        refused = {name for name, refusal in status.refusals.items() if not refusal.clamped}
-        anew = status.parameters_revision != self._revision
-        for name in self._controls if anew else self._refused - refused:
-            show_value(self._controls[name], shown_value(values[name]))
-        self._refused, self._revision = refused, status.parameters_revision
+                self._fit(control, self._ranges[name], values[name])
+        if status.parameters_revision != self._revision:
+            self._revision = status.parameters_revision
+            for name, control in self._controls.items():
+                show_value(control, shown_value(values[name]))
         self._show_controls(status.parameters.method)
-        self._show_refusal(status.refusals)
+        said = [text for name, text in status.corrections.items() if name in self._controls]
+        self._correction.content = _correction(said[-1] if said else "")
+
+    def _fit(self, control: Any, ends: tuple[float, float], value: float) -> None:  # noqa: ANN401
+        """Give a slider its range, wider only for as long as a value from elsewhere needs it."""
+        low, high = min(ends[0], value), max(ends[1], value)
+        if (control.min, control.max) != (low, high):
+            control.min, control.max = low, high
 
     def _show_controls(self, method: str) -> None:
         """Show the controls of a method's parameters, and hide all others."""
@@ -128,36 +91,79 @@ class ParametersPanel(Panel):
         used = find_method(method).infos()
         for name, control in self._controls.items():
             control.visible = name in used or name == "method"
-        self._more.visible = any(not info.slider for info in used.values())
-        sliders = [name for name in self._controls if name in used and used[name].slider]
-        self._resets = {label_of(name, used[name]): frozenset([name]) for name in sliders}
-        self._resets["All"] = frozenset(self._infos)
-        self._reset.options = tuple(self._resets)
-
-    def _show_refusal(self, refusals: Mapping[str, Refusal]) -> None:
-        clamped = {name for name, refusal in refusals.items() if refusal.clamped}
-        if clamped - self._clamped:
-            self._readable_until = time.monotonic() + _READING
-        self._clamped = clamped
-        reading = bool(clamped) and time.monotonic() < self._readable_until
-        self._refusal.visible = len(clamped) < len(refusals) or reading
-        if refusals:
-            *_, last = refusals.values()
-            self._refusal.content = (
-                '<div style="font-size: 0.8rem; padding: 0 1em; color: #c92a2a" role="alert">'
-                f"{escape(last.reason)}</div>"
-            )
 
     def _connect(self, name: str, post: Callable[[Command], None]) -> None:
         # Coroutines run at once, before the control's value can change again.
         @self._controls[name].on_update
         async def _(event: viser.GuiEvent) -> None:
             if event.client_id is not None:
-                control = self._controls[name]
-                value = entered_value(control, self._infos[name])
-                slides = isinstance(control, viser.GuiSliderHandle)
-                at_end = slides and value in (control.min, control.max)
-                post(ChangeParameters({name: value}, frozenset([name] if at_end else [])))
+                control, info = self._controls[name], self._infos[name]
+                ends = self._ranges[name]
+                if info.slider:
+                    ends = (float(control.min), float(control.max))
+                post(ChangeParameters({name: entered_value(control, info)}, {name: ends}))
+
+
+class ParametersPanel(_ControlsPanel):
+    """The parameters that have sliders, and the method."""
+
+    def __init__(self, context: PanelContext) -> None:
+        sliders = {name: info for name, info in _all_infos().items() if info.slider}
+        super().__init__(context, {**sliders, "method": PARAMETER_INFO["method"]})
+        _add_commands(context.client.gui, context.post)
+
+    def open(self, opened: Opened) -> None:
+        """Let n reach as far back as the recording and its rate suggest."""
+        stamps, (low, high) = opened.recording.stamps, range_of(self._infos["n"])
+        if len(stamps) > 1:
+            high = max(high, round(_LONGEST / float(np.median(np.diff(stamps)))))
+        self._ranges["n"] = (low, max(min(high, self._infos["n"].high, len(stamps) - 1), low + 1))
+
+
+class MoreParametersPanel(_ControlsPanel):
+    """The parameters without sliders; resets, undo and redo of all."""
+
+    def __init__(self, context: PanelContext) -> None:
+        gui, post, infos = context.client.gui, context.post, _all_infos()
+        super().__init__(context, {name: info for name, info in infos.items() if not info.slider})
+        self._resets: dict[str, frozenset[str]] = {}
+        self._reset = gui.add_button_group(
+            "Reset", ("all",), hint="To what the app was started with."
+        )
+        history = gui.add_button_group(
+            "History", ("undo", "redo"), hint="Of the parameters. Keys: Ctrl+Z, Ctrl+Shift+Z."
+        )
+        self._show_resets(context.parameters.method)
+
+        @self._reset.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(ResetParameters(self._resets.get(self._reset.value, frozenset())))
+
+        @history.on_click
+        async def _(_: viser.GuiEvent) -> None:
+            post(UndoParameters(1 if history.value == "undo" else -1))
+
+    def announce(self, status: Status) -> None:
+        """Show values, and a reset for each slider of the method."""
+        super().announce(status)
+        self._show_resets(status.parameters.method)
+
+    def _show_resets(self, method: str) -> None:
+        used = find_method(method).infos()
+        sliders = {label_of(n, info): frozenset([n]) for n, info in used.items() if info.slider}
+        resets = {**sliders, "others": frozenset(self._controls), "all": _all_names()}
+        if resets != self._resets:
+            self._resets = resets
+            self._reset.options = tuple(resets)
+
+
+def _correction(sentence: str) -> str:
+    """HTML of what was corrected; of constant height, so that nothing below moves."""
+    return (
+        '<div style="font-size: 0.72rem; line-height: 1.15; padding: 0 1em; min-height: 2.3em;'
+        f' margin: -0.3rem 0; color: var(--mantine-color-orange-8)" role="status">'
+        f"{escape(sentence)}</div>"
+    )
 
 
 def _all_infos() -> dict[str, ParameterInfo]:
@@ -166,9 +172,11 @@ def _all_infos() -> dict[str, ParameterInfo]:
     return shared | {n: info for method in all_methods() for n, info in method.infos().items()}
 
 
-def _add_commands(
-    gui: viser.GuiApi, names: frozenset[str], post: Callable[[Command], None]
-) -> None:
+def _all_names() -> frozenset[str]:
+    return frozenset(["method", *_all_infos()])
+
+
+def _add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
     undo = gui.add_command(
         "Undo parameters", hotkey="Z", modifier="cmd/ctrl", icon=viser.Icon.ARROW_BACK_UP
     )
@@ -181,4 +189,4 @@ def _add_commands(
     reset = gui.add_command("Reset all parameters", icon=viser.Icon.RESTORE)
     post_on(post, UndoParameters(1), undo)
     post_on(post, UndoParameters(-1), redo)
-    post_on(post, ResetParameters(names), reset)
+    post_on(post, ResetParameters(_all_names()), reset)

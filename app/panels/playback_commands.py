@@ -16,9 +16,6 @@ from app.session.commands import TogglePlay, seek, step
 from app.session.outbox import Notice
 from app.session.workbench import Workbench
 
-STEPS = {"-10": -10, "-1": -1, "+1": 1, "+10": 10}
-"""{label of the button: frames to step}."""
-
 _LAST = 1_000_000_000  # frames: beyond the end of every recording
 
 
@@ -84,11 +81,6 @@ class ToggleLoop(Repeated):
         clock = workbench.clock
         loop = clock.playback.loop ^ bool(self.times % 2)
         clock.change({"loop": loop}, workbench.frame, monotonic())
-
-
-def speed_name(speed: float) -> str:
-    """Text of a speed."""
-    return f"{speed:g}x"
 
 
 def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:

@@ -1,8 +1,7 @@
 """Presets: parameters saved under names or in files."""
 
 import time
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
 
 import viser
 from viser import Icon
@@ -14,13 +13,13 @@ from app.panels.panel import Panel, PanelContext
 from app.panels.triggers import post_chosen, post_on
 from app.session.command import LatestWins
 from app.session.outbox import Download, Notice
-from app.session.presets import Presets, PresetUse, preset_folder
+from app.session.presets import PresetAction, Presets, PresetUse, composed, preset_folder
 from app.session.snapshot import Status
 from app.session.workbench import Workbench
-from estimator import Parameters
 
 _NONE: str = "(none saved yet)"
-_USES: dict[str, Literal["load", "delete"]] = {"Load": "load", "Delete": "delete"}
+_USES: dict[str, PresetAction] = {"Load": "load", "Delete": "delete"}
+_NAMINGS = ("Save", "Rename")
 _AGE = 2.0  # seconds after which the list is refreshed
 _LARGEST = 100_000  # maximum bytes of a parameter file
 
@@ -57,33 +56,58 @@ class OpenParameters(LatestWins):
 
 @dataclass(frozen=True)
 class UsePreset(LatestWins):
-    """Load, save or delete a preset."""
+    """Load, save, rename or delete a preset.
 
-    action: Literal["load", "save", "delete"]
+    What would replace or delete one asks first; the same once more is the answer.
+
+    Attributes:
+        action: what to do.
+        name: of the preset.
+        new_name: for renaming.
+    """
+
+    action: PresetAction
     name: str
+    new_name: str = ""
 
     def apply(self, workbench: Workbench) -> None:
-        """Run the action; InputError if it fails."""
-        presets, done = Presets(preset_folder()), False
-        try:
-            match self.action:
-                case "load":
-                    workbench.tuning.set(presets.load(self.name))
-                case "save":
-                    workbench.outbox.append(_saved(presets, self.name, workbench.tuning.parameters))
-                case "delete":
-                    presets.delete(self.name)
-            done = True
-        finally:
-            workbench.preset_use = PresetUse(self.action, self.name, done)
+        """Run the action or ask; InputError if it fails."""
+        presets, now = Presets(preset_folder()), time.monotonic()
+        use = PresetUse(self.action, self.name, done=False)
+        sure = use.confirms(workbench.preset_use, now)
+        workbench.preset_use = use
+        if not sure and (question := self._question(presets)):
+            workbench.preset_use = replace(use, asked=now)
+            workbench.outbox.append(Notice("Presets", question, "yellow", replaces=True))
+            return
+        said = self._run(presets, workbench)
+        workbench.preset_use = replace(use, done=True)
+        workbench.outbox.append(Notice("Presets", said, replaces=True))
 
+    def _question(self, presets: Presets) -> str:
+        if self.action == "save" and self.name in presets.names():
+            return f"There is a preset {self.name} already. Press Save once more to replace it."
+        if self.action == "delete":
+            return f"Press Delete once more to delete the preset {self.name}."
+        return ""
 
-def _saved(presets: Presets, name: str, parameters: Parameters) -> Notice:
-    if not name:
-        raise InputError("Type a name first, under which the parameters are saved.")
-    was = " was there already; it" if name in presets.names() else ""
-    presets.save(name, parameters)
-    return Notice("Preset saved", f"{name}{was} holds these parameters now.", replaces=True)
+    def _run(self, presets: Presets, workbench: Workbench) -> str:
+        """Run the action, and return what was done in a sentence."""
+        if not self.name or (self.action == "rename" and not self.new_name):
+            raise InputError("Type a name first.")
+        match self.action:
+            case "load":
+                workbench.tuning.set(presets.load(self.name))
+                return f"The parameters are those of {self.name} now."
+            case "save":
+                presets.save(self.name, workbench.tuning.parameters)
+                return f"{self.name} holds these parameters now."
+            case "rename":
+                presets.rename(self.name, self.new_name)
+                return f"{self.name} is called {self.new_name} now."
+            case "delete":
+                presets.delete(self.name)
+                return f"{self.name} is deleted."
 
 
 class PresetsPanel(Panel):
@@ -94,26 +118,29 @@ class PresetsPanel(Panel):
         self._presets = Presets(preset_folder())
         self._listed_at = -_AGE
         self._use: PresetUse | None = None
-        with gui.add_folder("Presets", expand_by_default=False):
-            self._list: viser.GuiDropdownHandle[str] = gui.add_dropdown(
-                "Preset", [_NONE], hint=f"Parameters that were saved in {preset_folder()}."
-            )
-            uses = gui.add_button_group("", tuple(_USES))
-            self._name = gui.add_text("Name", "", hint="Under which Save keeps the parameters.")
-            saves = gui.add_button_group("", ("Save",))
-            save = gui.add_button(
-                "Save as a file",
-                icon=Icon.DOWNLOAD,
-                color="gray",
-                hint="A file for --parameters of the command line.",
-            )
-            self._upload = gui.add_upload_button(
-                "Open a file",
-                icon=Icon.UPLOAD,
-                color="gray",
-                mime_type="application/json",
-                hint="A parameter file, as Save as a file makes it.",
-            )
+        self._list: viser.GuiDropdownHandle[str] = gui.add_dropdown(
+            "Preset", [_NONE], hint=f"Parameters that were saved in {preset_folder()}."
+        )
+        uses = gui.add_button_group("", tuple(_USES))
+        self._name = gui.add_text(
+            "Name",
+            "",
+            hint="Under which Save keeps the parameters, or the chosen preset's new one.",
+        )
+        names = gui.add_button_group("", tuple(_NAMINGS))
+        save = gui.add_button(
+            "Save parameters as a file",
+            icon=Icon.DOWNLOAD,
+            color="gray",
+            hint="A file for --parameters of the command line.",
+        )
+        self._upload = gui.add_upload_button(
+            "Open a parameter file",
+            icon=Icon.UPLOAD,
+            color="gray",
+            mime_type="application/json",
+            hint="As Save parameters as a file makes it.",
+        )
 
         # Coroutines run at once, before the control's value can change again.
         @uses.on_click
@@ -121,9 +148,13 @@ class PresetsPanel(Panel):
             if (name := self._list.value) != _NONE:
                 post_chosen(post, uses, _USES, lambda action: UsePreset(action, name))
 
-        @saves.on_click
+        @names.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post(UsePreset("save", self._name.value.strip()))
+            typed, chosen = composed(self._name.value), self._list.value
+            if names.value == "Save":
+                post(UsePreset("save", typed))
+            elif chosen != _NONE:
+                post(UsePreset("rename", chosen, typed))
 
         entry = gui.add_command("Save parameters as a file", icon=Icon.DOWNLOAD)
         post_on(post, SaveParameters(), save, entry)
@@ -142,6 +173,8 @@ class PresetsPanel(Panel):
                 self._name.value = use.name
             elif use.action == "save":
                 chosen = use.name
+            elif use.action == "rename":
+                chosen = composed(self._name.value)
         if used or time.monotonic() > self._listed_at + _AGE:
             self._show(chosen)
 

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
+from app.analysis.quantities import page_unit
 from app.panels.panel import Panel, PanelContext
-from app.panels.tables import PLOTTED, framed, metric_title, page_unit
+from app.panels.tables import PLOTTED, framed, metric_title
 from app.scene.colours import Colour, css
 from app.scene.palettes import Palette
 from app.session.snapshot import Snapshot
@@ -35,8 +36,7 @@ class StatusPanel(Panel):
         gui = context.client.gui
         self._shown: Pair | None = None
         self._colours: Palette | None = None
-        with gui.add_folder("Status"):
-            self._content = gui.add_html("")
+        self._content = gui.add_html("")
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the numbers of the pair."""
@@ -48,8 +48,8 @@ class StatusPanel(Panel):
             return
         pair = self._shown = snapshot.pair
         colours = self._colours = snapshot.settings.palette
-        data = "simulated" if snapshot.opened.recording.simulated else "measured"
-        cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Data", data)])
+        origin = "simulated" if snapshot.opened.recording.simulated else "measured"
+        cells = "".join(_cell(fact) for fact in [*facts(pair, colours), Fact("Recording", origin)])
         grid = "display: grid; grid-template-columns: 1fr 1fr; column-gap: 1em"
         note = note_on(pair, snapshot.parameters, snapshot.opened.recording.truth_frame)
         # Room for the note is always kept, so that controls below stay in place during a drag.
@@ -70,11 +70,15 @@ def facts(pair: Pair, colours: Palette) -> list[Fact]:
         Fact("Stationary", _count(labels, Label.STATIONARY), colours.stationary),
         Fact("Clusters", str(len(flow.clusters)) if flow else _NOTHING),
         Fact("Unassigned", _count(labels, Label.UNASSIGNED), colours.unassigned),
-        Fact("Interval", _number(pair.interval, ".3f", " s")),
-        Fact("Estimate", _number(pair.milliseconds, ".1f", " ms")),
-        Fact("Truth", _number(speed, ".3f", " m/s"), colours.truth),
+        Fact("Δt of the pair", _number(pair.interval, ".3f", " s")),
+        Fact("Compute time", _compute_time(pair)),
+        Fact("True speed", _number(speed, ".3f", " m/s"), colours.truth),
         *(_metric(name, getattr(errors, name) if errors else None) for name in PLOTTED),
     ]
+
+
+def _compute_time(pair: Pair) -> str:
+    return "reused" if pair.reused else _number(pair.milliseconds, ".0f", " ms")
 
 
 def _metric(name: str, value: float | None) -> Fact:
@@ -99,7 +103,31 @@ def note_on(pair: Pair, parameters: Parameters, truth_frame: str | None = None) 
         return "The moving object is at rest."
     if not pair.flow.moving.any():
         return _why_nothing_moves(pair, pair.flow, parameters)
-    return "" if pair.truth else _why_no_truth(truth_frame)
+    said = [] if pair.truth else [_why_no_truth(truth_frame)]
+    return " ".join([*said, *_why_unassigned(pair.flow, parameters)])
+
+
+def _why_unassigned(flow: SceneFlow, parameters: Parameters) -> list[str]:
+    """Sentence on why source points are Unassigned, as far as the method's clusters tell."""
+    if not flow.clusters:
+        return []
+    alone = np.count_nonzero((flow.cluster < 0) & (flow.label == Label.UNASSIGNED))
+    small = unmatched = 0
+    if "n_min" in find_method(parameters.method).uses:
+        for cluster in flow.clusters:
+            if cluster.label is not Label.UNASSIGNED:
+                continue
+            if max(len(cluster.source), len(cluster.target)) < parameters.n_min:
+                small += len(cluster.remaining)
+            else:
+                unmatched += len(cluster.remaining)
+    reasons = (
+        (alone, "in no cluster"),
+        (small, "in clusters below N_min"),
+        (unmatched, "in clusters that ICP did not match"),
+    )
+    said = [f"{number} {reason}" for number, reason in reasons if number]
+    return [f"Unassigned: {', '.join(said)}."] if said else []
 
 
 def _why_no_truth(truth_frame: str | None) -> str:
@@ -129,7 +157,7 @@ def _reasons(flow: SceneFlow, parameters: Parameters) -> Iterator[tuple[str, str
         yield "n_min", f"every cluster is below N_min; the largest has {largest} points"
     if stationary := [c for c in flow.clusters if c.label is Label.STATIONARY]:
         most = max(c.mean_displacement for c in stationary)
-        yield "delta", f"displacements reach {1e3 * most:.0f} mm, below δ"
+        yield "delta", f"displacements reach {most:.3f} m, below δ"
     fitness = max((r.fitness for c in flow.clusters for r in c.rounds), default=0.0)
     yield "gamma", f"fitness reaches {fitness:.2f}, not above γ"
 

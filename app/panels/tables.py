@@ -26,21 +26,10 @@ class TableRow:
     attributes: str = ""
 
 
-def metric_label(name: str) -> str:
-    """Short title of a metric with its unit, such as "Vel. error [m/s]"."""
-    unit = page_unit(METRIC_INFO[name].unit)
-    return metric_title(name) + (f" [{unit}]" if unit else "")
-
-
 def metric_title(name: str) -> str:
-    """Short title of a metric, capitalised."""
-    short = METRIC_INFO[name].short
-    return short[:1].upper() + short[1:]
-
-
-def page_unit(unit: str) -> str:
-    """Unit as shown on the page."""
-    return "°" if unit == "deg" else unit
+    """Title of a metric, capitalised."""
+    title = METRIC_INFO[name].title
+    return title[:1].upper() + title[1:]
 
 
 def framed(content: str) -> str:
@@ -48,10 +37,20 @@ def framed(content: str) -> str:
     return f'<div style="font-size: 0.75rem; padding: 0 1em; line-height: 1.45">{content}</div>'
 
 
-def table(head: Sequence[str], rows: Iterable[TableRow]) -> str:
-    """Table with a head of HTML cells."""
+def table(
+    head: Sequence[str], rows: Iterable[TableRow], groups: Sequence[tuple[str, int]] = ()
+) -> str:
+    """Table with a head of HTML cells.
+
+    Args:
+        head: a cell for each column.
+        rows: below it.
+        groups: (HTML, number of columns) of a further head above it, none by default.
+    """
     cell = 'style="padding: 0.1em 0.3em; text-align: right; white-space: nowrap"'
     first = "".join(f"<th {cell}>{name}</th>" for name in head)
+    above = "".join(f'<th {cell} colspan="{width}">{name}</th>' for name, width in groups)
+    above = f"<tr>{above}</tr>" if above else ""
     body = "".join(
         f'<tr style="border-top: 1px solid rgba(128, 128, 128, 0.3){_look(row)}" {row.attributes}>'
         + "".join(f"<td {cell}>{content}</td>" for content in row.cells)
@@ -60,7 +59,7 @@ def table(head: Sequence[str], rows: Iterable[TableRow]) -> str:
     )
     return (
         '<table style="width: 100%; border-collapse: collapse; vertical-align: top; '
-        f'font-variant-numeric: tabular-nums"><tr>{first}</tr>{body}</table>'
+        f'font-variant-numeric: tabular-nums">{above}<tr>{first}</tr>{body}</table>'
     )
 
 

@@ -7,26 +7,34 @@ import numpy as np
 import viser
 from viser import Icon
 
+from app.browser.assets import run_asset
 from app.browser.controls import show_value
+from app.browser.script import show_background
 from app.panels.panel import Panel, PanelContext
 from app.panels.triggers import post_chosen
+from app.scene.camera import Camera
+from app.scene.colours import css
 from app.scene.lens import Lens, aspect_of
 from app.scene.palettes import PALETTES
 from app.scene.settings import ARROW_COLOURS, LAYERS, STATIC_SCENE
-from app.scene.theme import apply_theme
-from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, VIEWS
+from app.scene.theme import apply_theme, background
+from app.scene.views import ABOVE, FIT, FRONT, SENSORS, SLANTED
 from app.session.command import Background, LatestWins, Repeated
 from app.session.commands import ChangeView
 from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
 
+_VISIBLE = 0.01  # relative change of the scale that is seen in the scale bar
+_TURNED = np.cos(np.radians(5.0))  # of the angle by which a camera has turned
 _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
-    THREE_D: "1",
-    TOP: "2",
+    SLANTED: "1",
+    ABOVE: "2",
     FRONT: "3",
-    ROBOT: "4",
+    SENSORS: "4",
     FIT: "F",
 }
+_SHORT = {"Slanted": SLANTED, "Above": ABOVE, "Front": FRONT, "Sensors": SENSORS, "Fit": FIT}
+"""{label of its button: view}; the names themselves are too long for a row."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +51,7 @@ class SetView(LatestWins):
 
 @dataclass(frozen=True)
 class CameraMoved(Background, LatestWins):
-    """The camera's distance or its aspect ratio has changed."""
+    """The camera's distance, its direction or its aspect ratio has changed."""
 
     def apply(self, workbench: Workbench) -> None:
         """Adapt sizes and the view to the camera."""
@@ -78,16 +86,16 @@ class ViewPanel(Panel):
     """Controls of the drawing; none of them causes an estimate."""
 
     def __init__(self, context: PanelContext) -> None:
-        self._gui, self._post = context.client.gui, context.post
+        self._client, self._gui, self._post = context.client, context.client.gui, context.post
         self._settings = context.settings
         self._dark = False  # pages start light
+        run_asset(self._client, "scene.css")
+        show_background(self._client, css(background(dark=False)))
         self._legend = self._settings.legend
-        with self._gui.add_folder("View"):
-            self._add_views(context.client.camera)
-            with self._gui.add_folder("Colours, sizes, layers", expand_by_default=False):
-                self._add_colours()
-                self._add_sizes()
-                self._add_layers()
+        self._add_views(context.client.camera)
+        self._add_colours()
+        self._add_sizes()
+        self._add_layers()
 
     def show(self, snapshot: Snapshot) -> None:
         """Apply the theme, and follow changes by commands."""
@@ -98,30 +106,33 @@ class ViewPanel(Panel):
             self._dark = snapshot.settings.dark
             show_value(self._dark_box, self._dark)
             apply_theme(self._gui, self._dark)
+            show_background(self._client, css(background(self._dark)))
 
     def _add_views(self, camera: viser.CameraHandle) -> None:
         views = self._gui.add_button_group(
-            "Camera",
-            VIEWS,
-            hint="Keys: " + ", ".join(f"{_KEYS[view]} {view}" for view in VIEWS),
+            "View from",
+            tuple(_SHORT),
+            hint=", ".join(f"{view} (key {key})" for view, key in _KEYS.items()),
         )
 
         @views.on_click
         async def _(_: viser.GuiEvent) -> None:
-            post_chosen(self._post, views, {view: view for view in VIEWS}, SetView)
+            post_chosen(self._post, views, _SHORT, SetView)
 
         for view, key in _KEYS.items():
             command = self._gui.add_command(f"View: {view}", hotkey=key, icon=Icon.CAMERA)
             command.on_trigger(lambda _, view=view: self._post(SetView(view)))
 
-        drawn = [(Lens(0.0, 1.0), 0.0)]
+        drawn = [(Lens(0.0, 1.0), 0.0, np.zeros(3))]
 
         @camera.on_update
         async def _(camera: viser.CameraHandle) -> None:
-            # A mere rotation needs no redrawing.
-            lens, aspect = Lens.of(camera), aspect_of(camera)
-            if not lens.similar(drawn[0][0]) or not np.isclose(aspect, drawn[0][1], rtol=0.02):
-                drawn[0] = (lens, aspect)
+            seen = Camera.of(camera.position, camera.look_at, camera.fov)
+            lens, aspect, gaze = Lens.of(seen), aspect_of(camera), seen.direction
+            before = drawn[0]
+            same = lens.similar(before[0], _VISIBLE) and np.isclose(aspect, before[1], rtol=0.02)
+            if not same or gaze @ before[2] < _TURNED:
+                drawn[0] = (lens, aspect, gaze)
                 self._post(CameraMoved())
 
     def _add_colours(self) -> None:
@@ -139,7 +150,9 @@ class ViewPanel(Panel):
             hint="What the colour of an arrow says; the legend says which is which.",
         )
         dark = self._dark_box = self._gui.add_checkbox("Dark", self._settings.dark)
-        legend = self._legend_box = self._gui.add_checkbox("Legend", self._settings.legend)
+        legend = self._legend_box = self._gui.add_checkbox(
+            "Legend", self._settings.legend, hint="With the scale bar and the line below it."
+        )
         toggle = self._gui.add_command("Dark or light", icon=Icon.MOON)
         toggle.on_trigger(lambda _: self._post(ToggleDark()))
         toggle_legend = self._gui.add_command("Legend", icon=Icon.LIST_DETAILS)
@@ -200,7 +213,7 @@ class ViewPanel(Panel):
         choices: tuple[str, ...] | tuple[bool, ...],
     ) -> None:
         @control.on_update
-        async def _(_: viser.GuiEvent) -> None:
+        async def _(event: viser.GuiEvent) -> None:
             # A browser may send anything.
-            if control.value in choices:
+            if event.client_id is not None and control.value in choices:
                 self._post(ChangeView({setting: control.value}))

@@ -26,3 +26,17 @@ class Camera:
         """The camera at a position (3,) that looks at a point (3,)."""
         (x, y, z), (a, b, c) = position.tolist(), look_at.tolist()
         return cls((x, y, z), (a, b, c), float(fov))
+
+    def turned(self, R: NDArray[np.float64]) -> Self:
+        """The camera in a frame that R (3, 3) turns into."""
+        return self.of(R @ self.position, R @ self.look_at, self.fov)
+
+    @property
+    def distance(self) -> float:
+        """Metres from the camera to its look-at point."""
+        return float(np.linalg.norm(np.subtract(self.look_at, self.position)))
+
+    @property
+    def direction(self) -> NDArray[np.float64]:
+        """Unit vector (3,) of its gaze; zero for a camera that looks at its own position."""
+        return np.subtract(self.look_at, self.position) / max(self.distance, 1e-12)

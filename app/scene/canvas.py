@@ -1,6 +1,7 @@
 """Interface of the viser objects that a scene can be drawn on."""
 
-from typing import Protocol
+from contextlib import AbstractContextManager
+from typing import Any, Protocol
 
 import viser
 
@@ -16,4 +17,8 @@ class Canvas(Protocol):
     @property
     def camera(self) -> viser.CameraHandle | viser.InitialCameraConfig:
         """Camera that views the scene; on a server, its initial pose."""
+        ...
+
+    def atomic(self) -> AbstractContextManager[Any]:
+        """Context whose changes are drawn at once."""
         ...

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.scene.arrows import Arrows
 from app.scene.colours import Colour
-from app.scene.palettes import Palette
+from app.scene.drawn_flow import DrawnFlow
 from app.scene.scene_root import FIXED
 
 SOURCE_NODE = f"{FIXED}/source"
@@ -19,11 +19,9 @@ STATIC_TARGET_NODE = f"{FIXED}/static_target"
 FLOW_NODE = f"{FIXED}/flow"
 SECOND_FLOW_NODE = f"{FIXED}/second_flow"
 TRUTH_NODE = f"{FIXED}/truth"
-GHOST_NODE = f"{FIXED}/ghost"
 
-_HEAD, _TRUTH_HEAD = 0.011, 0.022  # length of an arrow's head, of the picture's height
-_SHAFT, _TRUTH_SHAFT = 0.0024, 0.005  # thickness of shafts, of the picture's height
-_GHOST_SIZE = 0.8  # of a point that moves
+HEAD, TRUTH_HEAD = 0.011, 0.022  # length of an arrow's head, of the picture's height
+SHAFT, TRUTH_SHAFT = 0.0024, 0.005  # thickness of shafts, of the picture's height
 
 
 class Cloud:
@@ -73,48 +71,22 @@ class CloudsView:
         target: P_k.
     """
 
-    def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
+    def __init__(self, scene: viser.SceneApi) -> None:
         self.target = Cloud(scene, TARGET_NODE, STATIC_TARGET_NODE)
         self.source = Cloud(scene, SOURCE_NODE, STATIC_SOURCE_NODE)
-        self._ghost = _add_cloud(scene, GHOST_NODE)
-        self._all = (*self.target.nodes, *self.source.nodes, self._ghost)
+        self._all = (*self.target.nodes, *self.source.nodes)
         self._flow = Arrows(scene, FLOW_NODE)
         self._second_flow = Arrows(scene, SECOND_FLOW_NODE)
         self._truth = Arrows(scene, TRUTH_NODE)
         self._static_size = 1.0
-        self.paint(palette)
 
-    def paint(self, palette: Palette) -> None:
-        """Apply a palette to the nodes of a single colour."""
-        self._ghost.colors = np.array(palette.ghost, dtype=np.uint8)
+    def show_flow(self, flow: DrawnFlow) -> None:
+        """Draw the arrows of a flow."""
+        _show_arrows(self._flow, flow)
 
-    def show_ghost(self, points: NDArray[np.float64]) -> None:
-        """Draw the moving source points (N, 3) displaced by their true motion."""
-        self._ghost.points = points.astype(np.float32)
-
-    def show_flow(
-        self,
-        points: NDArray[np.float64],
-        displacement: NDArray[np.float64],
-        colours: NDArray[np.uint8],
-    ) -> None:
-        """Draw an arrow from each point by its displacement.
-
-        Args:
-            points: (N, 3) metres.
-            displacement: (N, 3) metres; rows of NaN have no arrow.
-            colours: (N, 3).
-        """
-        drawn = has_arrow(points, displacement)
-        segments = arrows(points, displacement)
-        self._flow.show(segments, colours[drawn])
-
-    def show_second_flow(
-        self, points: NDArray[np.float64], displacement: NDArray[np.float64], colour: Colour
-    ) -> None:
-        """Draw a second flow in one colour; otherwise as `show_flow`."""
-        segments = arrows(points, displacement)
-        self._second_flow.show(segments, np.array(colour, dtype=np.uint8))
+    def show_second_flow(self, flow: DrawnFlow) -> None:
+        """Draw the arrows of a second flow beside it."""
+        _show_arrows(self._second_flow, flow)
 
     def show_truth(
         self,
@@ -141,10 +113,9 @@ class CloudsView:
         """
         radius = point_size * height / 2
         self._size(radius)
-        self._ghost.point_size = _GHOST_SIZE * radius
         for flow in (self._flow, self._second_flow):
-            flow.fit(_SHAFT * height, _HEAD * height, gap=radius)
-        self._truth.fit(_TRUTH_SHAFT * height, _TRUTH_HEAD * height, gap=0.0)
+            flow.fit(SHAFT * height, HEAD * height, gap=radius)
+        self._truth.fit(TRUTH_SHAFT * height, TRUTH_HEAD * height, gap=0.0)
 
     def size_static(self, part: float) -> None:
         """Set the size of points that do not move, as a part of the others'."""
@@ -193,6 +164,11 @@ def arrows(points: NDArray[np.float64], displacement: NDArray[np.float64]) -> ND
 def has_arrow(points: NDArray[np.float64], displacement: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Mask (N,) of the points whose arrow is finite and longer than 0."""
     return np.isfinite(points).all(axis=1) & (np.linalg.norm(displacement, axis=1) > 1e-6)
+
+
+def _show_arrows(node: Arrows, flow: DrawnFlow) -> None:
+    drawn = has_arrow(flow.points, flow.displacement)
+    node.show(arrows(flow.points, flow.displacement), flow.colours[drawn])
 
 
 def _show(

@@ -64,5 +64,5 @@ def _drawn(
     if settings.static_scene == HIDDEN:
         shown = shown & moving
     elif settings.static_scene == DIMMED or picked is not None:
-        colours = np.where(moving[:, None], colours, faded(colours, settings.dark))
+        colours = np.where(moving[:, None], colours, faded(colours, settings.background))
     return DrawnCloud(points[shown], colours[shown], moving[shown])

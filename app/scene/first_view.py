@@ -47,11 +47,11 @@ def first_view(
     low, high = np.min(box, axis=0), np.max(box, axis=0)
     centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
-    distance = _distance(half, direction, np.tan(fov / 2), aspect)
+    distance = box_distance(half, direction, np.tan(fov / 2), aspect)
     return View(centre + distance * direction, centre)
 
 
-def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> float:
+def box_distance(half: Vector, direction: Vector, slope: float, aspect: float) -> float:
     """Distance from the centre of a box at which all its corners just fit the picture, metres.
 
     Args:
@@ -62,7 +62,8 @@ def _distance(half: Vector, direction: Vector, slope: float, aspect: float) -> f
     """
     signs = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
     right = np.cross([0.0, 0.0, 1.0], direction)
-    right = right / np.linalg.norm(right)
+    # Straight from above, x is to the right.
+    right = right / np.linalg.norm(right) if np.any(right) else np.array([1.0, 0.0, 0.0])
     up = np.cross(direction, right)
     corners = signs * half
     aside = np.maximum(np.abs(corners @ right) / aspect, np.abs(corners @ up)) / slope

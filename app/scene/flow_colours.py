@@ -7,7 +7,6 @@ from app.analysis.pairs import Pair
 from app.scene.colours import Colour
 from app.scene.palettes import Palette, blend
 from app.scene.settings import BY_CLUSTER, BY_DIRECTION, BY_SPEED, ViewSettings
-from app.scene.theme import background
 from estimator import Label
 
 _SPEED_STEP = 0.1  # m/s
@@ -37,10 +36,9 @@ def source_colours(pair: Pair, palette: Palette) -> NDArray[np.uint8]:
     return colours[pair.flow.label]
 
 
-def faded(colours: NDArray[np.uint8], dark: bool) -> NDArray[np.uint8]:
-    """Colours (N, 3) of what stands back, blended with the background of a dark or light page."""
-    ground = np.array(background(dark))
-    return (_KEPT * colours + (1 - _KEPT) * ground).round().astype(np.uint8)
+def faded(colours: NDArray[np.uint8], background: Colour) -> NDArray[np.uint8]:
+    """Colours (N, 3) of what stands back, blended with the background."""
+    return (_KEPT * colours + (1 - _KEPT) * np.array(background)).round().astype(np.uint8)
 
 
 def speed_limit(pair: Pair, before: float) -> float:

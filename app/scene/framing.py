@@ -6,9 +6,13 @@ import viser
 from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.lens import aspect_of
+from app.scene.scale_bar import ScaleBar, scale_bar
 from app.scene.scene import Scene
-from app.scene.views import THREE_D
+from app.scene.views import SLANTED
 
+Vector = tuple[float, float, float]
+
+_UP: Vector = (0.0, 0.0, 1.0)
 _SAME_SHAPE = 0.02  # relative change of the aspect ratio
 _SAME_PLACE = 0.01  # relative to the distance of the look-at point
 
@@ -30,6 +34,11 @@ class Framing:
         self._blank = False
         self._taken: tuple[str, float, Camera] | None = None
 
+    @property
+    def scale_bar(self) -> ScaleBar | None:
+        """Scale bar of the page's camera, in parts of the scene's height instead of pixels."""
+        return scale_bar(self._scene.camera(), aspect_of(self._client.camera), 1.0)
+
     def start_from(self, camera: Camera) -> None:
         """Show the next recording from this camera, instead of from its first view."""
         self._waiting = camera
@@ -39,15 +48,26 @@ class Framing:
         waiting, self._waiting = self._waiting, None
         self._blank = waiting is None and len(pair.target.points) == 0
         if waiting:
-            self._taken = None
-            self._scene.set_camera(waiting)
+            self.look(waiting)
         else:
-            self.set_view(pair, THREE_D)
+            self.set_view(pair, SLANTED)
 
     def set_view(self, pair: Pair, view: str) -> None:
         """Move the camera to the view of this name."""
         aspect = aspect_of(self._client.camera)
+        self._client.camera.up_direction = _UP
         self._taken = (view, aspect, self._scene.place_camera(pair, view, aspect))
+
+    def look(self, camera: Camera, up: Vector = _UP) -> None:
+        """Move the camera to a pose of no named view.
+
+        Args:
+            camera: the pose.
+            up: (3,) what points up in the picture, in the drawing's frame.
+        """
+        self._taken = None
+        self._client.camera.up_direction = up
+        self._scene.set_camera(camera)
 
     def retry_first_view(self, pair: Pair) -> None:
         """Compute the first view again if its frame was empty and this one has points."""

@@ -16,6 +16,7 @@ from app.scene.settings import (
     HIDDEN,
     ViewSettings,
 )
+from app.scene.truth import object_is_known
 from estimator import ClusterResult, Label
 
 _MOST_CLUSTERS = 6
@@ -85,8 +86,8 @@ def legend(
         entries += flow
     if "Truth" in layers and pair.object_velocity is not None:
         entries.append(LegendEntry(palette.truth, "True displacement"))
-    if "Truth ghost" in layers and pair.truth is not None and pair.truth.points is not None:
-        entries.append(LegendEntry(palette.ghost, "Truth ghost"))
+    if "True object" in layers and object_is_known(pair):
+        entries.append(LegendEntry(palette.ghost, "True object"))
     if picked is not None:
         entries.append(LegendEntry(palette.picked, f"Picked: cluster {picked.index}"))
     return Legend(tuple(entries), ramp, settings.dark)
@@ -110,7 +111,7 @@ def _static(colour: Colour, settings: ViewSettings) -> Colour:
     """Colour of points that do not move, as they are drawn."""
     if settings.static_scene != DIMMED:
         return colour
-    r, g, b = faded(np.array([colour]), settings.dark)[0].tolist()
+    r, g, b = faded(np.array([colour]), settings.background)[0].tolist()
     return r, g, b
 
 

@@ -15,7 +15,8 @@ def html(legend: Legend) -> str:
     if legend.ramp:
         rows += _ramp(legend.ramp)
     return (
-        '<div style="position: fixed; left: calc(var(--scene-left, 0px) + 14px); bottom: 14px; '
+        '<div style="position: fixed; left: calc(var(--scene-left, 0px) + 14px); '
+        "bottom: calc(var(--scene-bottom, 0px) + var(--corner-height, 0px) + 14px); "
         "z-index: 1; pointer-events: none; "
         f"background: {ground}; color: {ink}; padding: 6px 10px; border-radius: 6px; "
         f'font-size: 12px; line-height: 18px" data-legend>{rows}</div>'

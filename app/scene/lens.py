@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
+
+from app.scene.camera import Camera
 
 FOV = np.radians(38.0)
 """Vertical field of view, rad: narrow, for little perspective distortion."""
@@ -13,6 +14,7 @@ WIDE_FOV = np.radians(70.0)
 """Vertical field of view of a camera on the robot, amid the points, rad."""
 
 _KEPT = 1.5  # metres in front of the look-at point that the near plane never cuts
+_SUITS = 0.04  # relative difference of the heights for which one size is right
 _CLEARED = 0.45  # maximum distance of the near plane, as a share of that of the look-at point
 
 
@@ -34,16 +36,9 @@ class Lens:
     fov: float
 
     @classmethod
-    def of(cls, camera: viser.CameraHandle | viser.InitialCameraConfig) -> "Lens":
+    def of(cls, camera: Camera) -> "Lens":
         """The lens of a camera."""
-        return cls.between(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
-
-    @classmethod
-    def between(
-        cls, position: NDArray[np.float64], look_at: NDArray[np.float64], fov: float
-    ) -> "Lens":
-        """The lens of a camera at `position` (3,) that looks at `look_at` (3,), metres."""
-        return cls(float(np.linalg.norm(look_at - position)), float(fov))
+        return cls(camera.distance, camera.fov)
 
     @property
     def height(self) -> float:
@@ -58,6 +53,6 @@ class Lens:
         """
         return max(0.01, min(_CLEARED * self.distance, self.distance - _KEPT))
 
-    def similar(self, other: "Lens") -> bool:
-        """Whether sizes drawn for one lens suit the other."""
-        return bool(np.isclose(self.height, other.height, rtol=0.04))
+    def similar(self, other: "Lens", part: float = _SUITS) -> bool:
+        """Whether heights differ by this part at most; by default, sizes then suit both."""
+        return bool(np.isclose(self.height, other.height, rtol=part))

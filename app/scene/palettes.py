@@ -26,9 +26,10 @@ class Palette:
         second: of B's arrows where A and B are drawn together; A's have `flow`.
         picked: of the picked cluster.
         truth: of the arrow of the true velocity.
-        ghost: of moving source points displaced by their true motion.
+        ghost: of the true object.
         frustum: of the sensors that see nothing moving.
         grid: of the grid's thin and thick lines.
+        floor: of the plane that a robot stands on.
         categories: for clusters and other numbered things.
         ramp: stops of the sequential colour map, from low to high.
         light: brightness of the lamps, 1 for full; a dark page needs less, or colours turn pale.
@@ -45,6 +46,7 @@ class Palette:
     ghost: Colour
     frustum: Colour
     grid: tuple[Colour, Colour]
+    floor: Colour
     categories: tuple[Colour, ...]
     ramp: tuple[Colour, ...]
     light: float
@@ -69,8 +71,8 @@ def blend(stops: tuple[Colour, ...], parts: NDArray[np.float64]) -> NDArray[np.u
     return np.stack(channels, axis=-1).round().astype(np.uint8)
 
 
-_LIGHT_GRID = ((228, 231, 236), (200, 205, 214))
-_DARK_GRID = ((42, 45, 51), (66, 71, 80))
+_LIGHT_GRID = ((222, 226, 232), (196, 202, 212))
+_DARK_GRID = ((46, 49, 56), (68, 73, 83))
 
 # Colour-blind safe hues of Okabe and Ito, as in the second palette.
 _CATEGORIES = (
@@ -98,6 +100,7 @@ _PAPER_LIGHT = Palette(
     ghost=(248, 178, 92),
     frustum=FRUSTUM,
     grid=_LIGHT_GRID,
+    floor=(232, 235, 240),
     categories=_CATEGORIES,
     ramp=_RAMP,
     light=1.0,
@@ -111,9 +114,10 @@ _PAPER_DARK = Palette(
     second=(185, 120, 255),
     picked=(255, 80, 190),
     truth=(255, 160, 40),
-    ghost=(170, 110, 40),
+    ghost=(236, 156, 66),
     frustum=(150, 90, 90),
     grid=_DARK_GRID,
+    floor=(34, 37, 43),
     categories=_CATEGORIES,
     ramp=_BRIGHT_RAMP,
     light=0.65,
@@ -140,7 +144,7 @@ _ALL = {
         flow=(40, 205, 155),
         second=(240, 228, 66),
         truth=(225, 140, 190),
-        ghost=(140, 84, 120),
+        ghost=(206, 130, 178),
         frustum=(130, 112, 100),
     ),
 }

@@ -5,8 +5,8 @@ import viser
 import viser.transforms as vtf
 from numpy.typing import NDArray
 
-from app.analysis.pairs import Pair
 from app.browser.script import canvas_size
+from app.scene.camera import Camera
 from app.scene.first_view import View
 from app.scene.scene import Scene
 
@@ -28,38 +28,34 @@ class SceneRenderer:
         """Width and height of the scene in the page, CSS pixels."""
         return canvas_size(self._client)
 
-    def render(self, pair: Pair, view: str | None, width: int, height: int) -> NDArray[np.uint8]:
+    def render(self, camera: Camera, width: int, height: int, detail: float) -> NDArray[np.uint8]:
         """RGBA pixels (height, width, 4), transparent where nothing is drawn.
 
         Args:
-            pair: drawn in the scene.
-            view: name of the view, None for the current camera.
+            camera: of the picture.
             width: in pixels.
             height: in pixels.
+            detail: pixels of what is one pixel wide in a picture 720 pixels high.
 
         Raises:
             RuntimeError: the browser has gone.
             TimeoutError: it returns no picture in time, as when its tab is in the background.
         """
-        camera = self._client.camera
-        if view is None:
-            placed = View(np.asarray(camera.position), np.asarray(camera.look_at))
-            fov = float(camera.fov)
-        else:
-            placed, fov = self._scene.view(pair, view, width / height)
-        # The page sizes points for its own window, not for the picture.
-        larger = height / self.size()[1] * np.tan(camera.fov / 2) / np.tan(fov / 2)
-        with self._scene.picture_sizes(placed, fov, larger, height):
-            self._render(placed, fov, 8, 8)  # new sizes take effect one image late
-            return self._render(placed, fov, height, width)
+        # The page sizes points for its own window and camera, not for the picture.
+        slopes = np.tan(self._client.camera.fov / 2) / np.tan(camera.fov / 2)
+        larger = height / self.size()[1] * float(slopes)
+        with self._scene.picture_sizes(camera, larger, height, detail):
+            self._render(camera, 8, 8)  # new sizes take effect one image late
+            return self._render(camera, height, width)
 
-    def _render(self, placed: View, fov: float, height: int, width: int) -> NDArray[np.uint8]:
+    def _render(self, camera: Camera, height: int, width: int) -> NDArray[np.uint8]:
+        placed = View(np.array(camera.position), np.array(camera.look_at))
         return self._client.get_render(
             height,
             width,
             wxyz=vtf.SO3.from_matrix(looking(placed)).wxyz,
             position=placed.position,
-            fov=fov,
+            fov=camera.fov,
             transport_format="png",
             timeout=_TIMEOUT,
         )

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from app.scene.node_poses import UNKNOWN, node_name, set_poses
 from app.scene.scene_root import FIXED
@@ -17,7 +18,7 @@ class RobotView:
     """Draws a robot; its meshes are sent once, afterwards only poses."""
 
     def __init__(self, scene: viser.SceneApi, shape: RobotShape) -> None:
-        self.digest = shape.digest
+        self._shape, self.digest = shape, shape.digest
         self._links: dict[str, viser.FrameHandle] = {}
         for number, (link, parts) in enumerate(shape.links.items()):
             node = f"{ROOT}/{node_name(number, link)}"
@@ -26,6 +27,11 @@ class RobotView:
                 scene.add_mesh_simple(
                     f"{node}/{index}", part.vertices, part.faces, color=part.colour
                 )
+
+    def vertices(self, link: str) -> NDArray[np.float64]:
+        """All vertices (V, 3) of a link, metres in its frame."""
+        parts = [part.vertices for part in self._shape.links.get(link, ())]
+        return np.vstack([np.zeros((0, 3)), *parts]).astype(np.float64)
 
     def show(self, link_poses: Mapping[str, Transform]) -> None:
         """Move the links to their poses T_fixed_link; a link without one is hidden."""

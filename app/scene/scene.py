@@ -6,49 +6,30 @@ from contextlib import contextmanager
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.comparison import A, B
+from app.analysis.comparison import A
 from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.canvas import Canvas
-from app.scene.clouds_view import (
-    FLOW_NODE,
-    GHOST_NODE,
-    SECOND_FLOW_NODE,
-    SOURCE_NODE,
-    STATIC_SOURCE_NODE,
-    STATIC_TARGET_NODE,
-    TARGET_NODE,
-    TRUTH_NODE,
-    CloudsView,
-)
+from app.scene.clouds_view import CloudsView
 from app.scene.drawn_clouds import STATIC_SIZE, drawn_source, drawn_target
+from app.scene.drawn_flow import drawn_flow, drawn_second_flow
 from app.scene.first_view import View
-from app.scene.flow_colours import arrow_colours, faded, speed_limit
+from app.scene.flow_colours import speed_limit
+from app.scene.layers import show_layers
 from app.scene.legend import Legend, legend
 from app.scene.lens import FOV, WIDE_FOV, Lens
 from app.scene.robot_view import ROOT, RobotView
-from app.scene.scene_root import AXES, GRID, SceneRoot, upright
 from app.scene.selection_view import SelectionView
 from app.scene.sensors_view import FRUSTUMS, SENSORS, SensorsView
 from app.scene.settings import ViewSettings
 from app.scene.shapes import robot_shape
-from app.scene.truth import ghost, truth_arrow
-from app.scene.views import ROBOT, THREE_D, Projection, named_view
-from estimator import ClusterResult, Label
+from app.scene.surroundings import Surroundings
+from app.scene.true_object import TrueObjectView
+from app.scene.truth import truth_arrow
+from app.scene.views import SENSORS as FROM_SENSORS
+from app.scene.views import SLANTED, Projection, named_view
+from estimator import ClusterResult
 from recordings import Recording
-
-_NODES = {
-    "Robot": (ROOT,),
-    "Sensors": (SENSORS,),
-    "Frustums": (FRUSTUMS,),
-    "Source": (SOURCE_NODE, STATIC_SOURCE_NODE),
-    "Target": (TARGET_NODE, STATIC_TARGET_NODE),
-    "Flow": (FLOW_NODE, SECOND_FLOW_NODE),
-    "Truth": (TRUTH_NODE,),
-    "Truth ghost": (GHOST_NODE,),
-    "Grid and axes": (GRID, AXES),
-}
-"""{layer: nodes that it shows or hides}."""
 
 _REFERENCE_HEIGHT = 720  # pixels, the height of the picture that sizes in pixels refer to
 
@@ -71,15 +52,16 @@ class Scene:
         self._second: Pair | None = None
         self._side = A
         self._marked: ClusterResult | None = None
-        self._R_drawing_fixed = np.eye(3)
         self._speed_limit = 0.0
-        self._root = SceneRoot(canvas.scene, settings.palette)
+        self._surroundings = Surroundings(canvas.scene, settings)
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
-        self._clouds = CloudsView(canvas.scene, settings.palette)
+        self._object = TrueObjectView(canvas.scene, settings.palette)
+        self._clouds = CloudsView(canvas.scene)
         self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         self._lens: Lens | None = None
-        self._show_layers()
+        self._camera: Camera | None = None
+        show_layers(self._canvas.scene, self._settings.layers)
 
     def open(self, recording: Recording) -> None:
         """Prepare the scene for a recording; the meshes of an identical robot are kept."""
@@ -92,12 +74,12 @@ class Scene:
         if self._sensors:
             self._sensors.remove()
         self._sensors = SensorsView(self._canvas.scene, recording.sensors)
-        self._R_drawing_fixed = upright(recording.fixed_frame)
-        self._root.orient(self._R_drawing_fixed)
+        self._surroundings.open(recording)
+        self._object.open(recording.object_meshes)
         self._shown = None
         self._speed_limit = 0.0
 
-    def place_camera(self, pair: Pair, view: str = THREE_D, aspect: float = 16 / 9) -> Camera:
+    def place_camera(self, pair: Pair, view: str = SLANTED, aspect: float = 16 / 9) -> Camera:
         """Move the camera to a named view of a pair, and return its pose.
 
         Args:
@@ -113,9 +95,13 @@ class Scene:
     def view(self, pair: Pair, name: str, aspect: float) -> tuple[View, float]:
         """Camera pose of a named view, and its vertical field of view in rad."""
         camera = self._canvas.camera
-        projection = Projection(WIDE_FOV if name == ROBOT else FOV, aspect)
-        before = View(np.asarray(camera.position), np.asarray(camera.look_at))
-        return named_view(name, pair, self._R_drawing_fixed, projection, before), projection.fov
+        projection = Projection(WIDE_FOV if name == FROM_SENSORS else FOV, aspect)
+        # From amid the points what moves would be a heap.
+        amid = camera.fov > (FOV + WIDE_FOV) / 2
+        before = None if amid else View(np.asarray(camera.position), np.asarray(camera.look_at))
+        return named_view(
+            name, pair, self._surroundings.R_drawing_fixed, projection, before
+        ), projection.fov
 
     @property
     def legend(self) -> Legend:
@@ -124,28 +110,35 @@ class Scene:
         return legend(self._shown, self._settings, self._speed_limit, side, self._marked)
 
     @contextmanager
-    def picture_sizes(self, view: View, fov: float, larger: float, height: int) -> Iterator[None]:
+    def picture_sizes(
+        self, camera: Camera, larger: float, height: int, detail: float
+    ) -> Iterator[None]:
         """Context with sizes, line widths and near plane that suit a picture.
 
         Args:
-            view: of the picture.
-            fov: vertical field of view, rad.
+            camera: of the picture.
             larger: factor on the size of points, for the picture instead of the page's window.
             height: of the picture, pixels.
+            detail: pixels of what is one pixel wide in a picture 720 pixels high.
         """
-        lens = Lens.between(view.position, view.look_at, fov)
-        gaze = view.look_at - view.position
-        self._size(lens, larger)
-        self._thicken(height / _REFERENCE_HEIGHT)
+        position, look_at = np.array(camera.position), np.array(camera.look_at)
+        lens, before = Lens.of(camera), self._camera
+        self._surroundings.fit(camera)
+        gaze = look_at - position
+        self._size(lens, larger, detail * _REFERENCE_HEIGHT / height)
+        self._thicken(detail)
         try:
-            eye, forward = self.in_fixed_frame(view.position), self.in_fixed_frame(gaze)
+            eye, forward = self.in_fixed_frame(position), self.in_fixed_frame(gaze)
             # viser's renders ignore the camera's near plane.
-            picked = [self._selection.points] if self._selection else []
-            with self._clouds.clipped(eye, forward / np.linalg.norm(forward), lens.near, picked):
+            others = [self._object.points]
+            if self._selection:
+                others.append(self._selection.points)
+            with self._clouds.clipped(eye, forward / np.linalg.norm(forward), lens.near, others):
                 yield
         finally:
             self._thicken(1.0)
-            if self._lens:
+            if self._lens and before:
+                self._surroundings.fit(before)
                 self._fit(self._lens)
 
     def camera(self) -> Camera:
@@ -158,14 +151,18 @@ class Scene:
         handle, position, look_at = self._canvas.camera, camera.position, camera.look_at
         handle.fov, handle.position, handle.look_at = camera.fov, position, look_at
         # Not read back from the handle: the browser may be reporting its old pose right now.
-        self._set_lens(Lens.between(np.array(position), np.array(look_at), camera.fov))
+        self._adapt(camera)
 
     def adapt_sizes(self) -> None:
         """Adapt sizes to a camera that has moved; no effect before it was first placed."""
         if self._lens:
-            self._set_lens(Lens.of(self._canvas.camera))
+            self._adapt(self.camera())
 
-    def _set_lens(self, lens: Lens) -> None:
+    def _adapt(self, camera: Camera) -> None:
+        self._camera = camera
+        self._surroundings.fit(camera)
+        self._place_label()
+        lens = Lens.of(camera)
         if self._lens is None or not self._lens.similar(lens):
             self._lens = lens
             self._fit(lens)
@@ -191,6 +188,8 @@ class Scene:
                 self._robot.show(pair.link_poses)
             if self._sensors:
                 self._sensors.show(pair.target.T_fixed_sensor)
+        self._surroundings.show(pair, self._robot)
+        self._object.show(pair)
         self._speed_limit = speed_limit(pair, self._speed_limit)
         self.mark(pair, picked)
 
@@ -201,20 +200,26 @@ class Scene:
             palette = self._settings.palette
             self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
         if self._selection:
-            self._selection.show(pair, cluster, self._R_drawing_fixed[2])
+            self._selection.show(pair, cluster, self._surroundings.R_drawing_fixed[2])
+        self._place_label()
         self._show_clouds(pair)
         self._show_flow(pair)
 
+    def _place_label(self) -> None:
+        if self._selection and self._camera:
+            R_fixed_drawing = self._surroundings.R_drawing_fixed.T
+            self._selection.place_label(self._camera.turned(R_fixed_drawing))
+
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
         """Transform a point or direction (3,) of the drawing into the recording's fixed frame."""
-        return self._R_drawing_fixed.T @ vector
+        return self._surroundings.R_drawing_fixed.T @ vector
 
     def change(self, settings: ViewSettings) -> None:
         """Redraw the current pair with other settings."""
         before, self._settings = self._settings, settings
+        self._surroundings.change(settings)
         if settings.palette != before.palette:
-            self._clouds.paint(settings.palette)
-            self._root.paint(settings.palette)
+            self._object.paint(settings.palette)
             if self._selection:
                 self._selection.paint(settings.palette)
         if settings.static_scene != before.static_scene:
@@ -225,17 +230,26 @@ class Scene:
             self._show_clouds(self._shown)
             self._show_flow(self._shown)
         if settings.layers != before.layers:
-            self._show_layers()
+            show_layers(self._canvas.scene, self._settings.layers)
 
     def _fit(self, lens: Lens) -> None:
         # viser does not send a value equal to the last reported one, which may be outdated: a
         # slightly different value first makes sure that the right one is sent.
         for near in (1.001 * lens.near, lens.near):
             self._canvas.camera.near = near
-        self._size(lens, 1.0)
+        self._size(lens, 1.0, 1.0)
 
-    def _size(self, lens: Lens, larger: float) -> None:
-        self._clouds.fit(lens.height, larger * self._settings.point_size / _REFERENCE_HEIGHT)
+    def _size(self, lens: Lens, larger: float, magnified: float) -> None:
+        """Set sizes for a lens.
+
+        Args:
+            lens: of the camera.
+            larger: factor on the size of points alone.
+            magnified: factor on the size of points and arrows.
+        """
+        point_size = larger * self._settings.point_size / _REFERENCE_HEIGHT
+        self._clouds.fit(magnified * lens.height, point_size)
+        self._object.fit(self._clouds.radius)
         if self._selection:
             self._selection.set_point_size(self._clouds.radius)
 
@@ -255,45 +269,15 @@ class Scene:
             cloud.show(drawn.points, drawn.colours, drawn.moving)
 
     def _show_flow(self, pair: Pair) -> None:
-        scale, palette = self._settings.arrow_scale, self._settings.palette
-        seeing: list[int] = []
-        if pair.source and pair.flow:
-            if self._second is None:
-                colours = arrow_colours(
-                    pair, self._settings, self._speed_limit, self._R_drawing_fixed
-                )
-            else:
-                colours = np.tile(
-                    np.array(palette.side(self._side), np.uint8), (len(pair.flow.label), 1)
-                )
-            if self._marked is not None:
-                faint = faded(colours, self._settings.dark)
-                of_picked = pair.flow.cluster == self._marked.index
-                colours = np.where(of_picked[:, None], colours, faint)
-            displacement = scale * pair.interval * pair.flow.velocity
-            self._clouds.show_flow(pair.source.points, displacement, colours)
-            seeing = pair.source.sensor[pair.flow.label == Label.MOVING].tolist()
-        else:
-            none = np.zeros((0, 3))
-            self._clouds.show_flow(none, none, none.astype(np.uint8))
+        settings, R = self._settings, self._surroundings.R_drawing_fixed
+        side = None if self._second is None else self._side
+        flow = drawn_flow(pair, settings, self._speed_limit, R, side, self._marked)
+        second = drawn_second_flow(self._second, settings, self._side)
+        self._clouds.show_flow(flow)
+        self._clouds.show_second_flow(second)
         if self._sensors:
-            self._sensors.highlight(seeing, palette)
-        self._show_second_flow(scale)
-        start, velocity = truth_arrow(pair, self._R_drawing_fixed[2])
-        truth = None if velocity is None else scale * pair.interval * velocity
-        self._clouds.show_truth(start, truth, palette.truth)
-        self._clouds.show_ghost(ghost(pair))
-
-    def _show_second_flow(self, scale: float) -> None:
-        second, points, displacement = self._second, np.zeros((0, 3)), np.zeros((0, 3))
-        if second and second.source and second.flow:
-            points = second.source.points
-            displacement = scale * second.interval * second.flow.velocity
-        colour = self._settings.palette.side(B if self._side == A else A)
-        self._clouds.show_second_flow(points, displacement, colour)
-
-    def _show_layers(self) -> None:
-        for layer, names in _NODES.items():
-            for name in names:
-                if node := self._canvas.scene.get_handle_by_name(name):
-                    node.visible = layer in self._settings.layers
+            moving = pair.source.sensor[pair.flow.moving] if pair.source and pair.flow else ()
+            self._sensors.highlight(map(int, moving), settings.palette)
+        start, velocity = truth_arrow(pair, R[2])
+        truth = None if velocity is None else settings.arrow_scale * pair.interval * velocity
+        self._clouds.show_truth(start, truth, settings.palette.truth)

@@ -1,4 +1,4 @@
-"""Parts common to every scene: lights, grid, fixed frame and its axes."""
+"""Parts common to every scene: lights, fixed frame and its axes."""
 
 import numpy as np
 import viser
@@ -12,34 +12,20 @@ _Lamp = viser.HemisphereLightHandle | viser.DirectionalLightHandle
 FIXED = "/fixed"
 """Node of the fixed frame, the parent of everything drawn from a recording."""
 
-GRID = "/grid"
 AXES = f"{FIXED}/axes"
 
 
 class SceneRoot:
-    """Lights, a grid, and the fixed frame with its axes."""
+    """Lights, and the fixed frame with its axes."""
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
         self._lamps = _light(scene)
         self._fixed = scene.add_frame(FIXED, show_axes=False)
         scene.add_frame(AXES, axes_length=0.12, axes_radius=0.004, origin_radius=0.0)
-        cells, sections = palette.grid
-        self._grid = scene.add_grid(
-            GRID,
-            width=8.0,
-            height=8.0,
-            cell_size=0.25,
-            cell_color=cells,
-            section_size=1.0,
-            section_color=sections,
-            shadow_opacity=0.0,
-            fade_distance=9.0,
-        )
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:
-        """Apply a palette's grid colours and brightness."""
-        self._grid.cell_color, self._grid.section_color = palette.grid
+        """Apply a palette's brightness."""
         for lamp, intensity in self._lamps:
             lamp.intensity = palette.light * intensity
 
@@ -48,12 +34,17 @@ class SceneRoot:
         self._fixed.wxyz = vtf.SO3.from_matrix(R_drawing_fixed).wxyz
 
 
+def says_up(fixed_frame: str) -> bool:
+    """Whether the z axis of a fixed frame points up; an optical frame is tilted as its sensor."""
+    return not fixed_frame.endswith("optical_frame")
+
+
 def upright(fixed_frame: str) -> NDArray[np.float64]:
     """R_drawing_fixed (3, 3), from the fixed frame into a drawing whose z axis points up.
 
     Optical frames have z forward and y down (REP 103); all others have z up already.
     """
-    if fixed_frame.endswith("optical_frame"):
+    if not says_up(fixed_frame):
         return np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
     return np.eye(3)
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from app.analysis.selection import points_of
+from app.scene.camera import Camera
 from app.scene.palettes import Palette
 from app.scene.scene_root import FIXED
 from estimator import ClusterResult
@@ -15,7 +16,8 @@ from estimator import ClusterResult
 PICKED_NODE = f"{FIXED}/picked"
 
 _LARGER = 1.2  # radius of a picked point, relative to others that move
-_THICKNESS = 1.5  # pixels, of the box's lines
+_THICKNESS = 1.0  # pixels, of the box's lines
+_IN_VIEW = 0.6  # of half the field of view, within which the label is kept
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
 _EDGES = np.array(
@@ -53,6 +55,8 @@ class SelectionView:
             thickness_units="screen",
         )
         self._label = scene.add_label(f"{PICKED_NODE}/label", "", anchor="bottom-center")
+        self._drawn: NDArray[np.float64] = np.zeros((0, 3))
+        self._up = np.array([0.0, 0.0, 1.0])
 
     def show(self, pair: Pair, cluster: ClusterResult | None, up: NDArray[np.float64]) -> None:
         """Draw a cluster of a pair as picked, or none.
@@ -66,12 +70,23 @@ class SelectionView:
             self._frame.visible = False
             return
         points = points_of(pair, cluster)
-        middle = points.mean(axis=0)
+        self._drawn, self._up = points, up
         self.points.points = pair.source.points[cluster.source].astype(np.float32)
         self._box.points = box_around(points)
         self._label.text = f"Cluster {cluster.index}: {cluster.label.name.lower()}"
-        self._label.position = middle + (float(((points - middle) @ up).max()) + 2 * _MARGIN) * up
         self._frame.visible = True
+
+    def place_label(self, camera: Camera) -> None:
+        """Put the label above what a camera, in the fixed frame, sees of the cluster."""
+        if len(self._drawn) == 0:
+            return
+        rays = self._drawn - camera.position
+        away = np.linalg.norm(np.cross(rays, camera.direction), axis=1)
+        seen = away < (rays @ camera.direction) * np.tan(_IN_VIEW * camera.fov / 2)
+        points = self._drawn[seen] if seen.any() else self._drawn
+        middle = points.mean(axis=0)
+        above = float(((points - middle) @ self._up).max()) + 2 * _MARGIN
+        self._label.position = middle + above * self._up
 
     def paint(self, palette: Palette) -> None:
         """Apply a palette."""

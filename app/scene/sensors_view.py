@@ -15,16 +15,15 @@ from recordings import RecordedSensor
 
 SENSORS = f"{FIXED}/sensors"
 FRUSTUMS = f"{FIXED}/frustums"
-_BODY = (
+BODY = (
     0.018,
     0.012,
     0.010,
 )  # metres, larger than the real chip so that it is visible on the robot
-_THICKNESS, _SEEING = (
-    1.0,
-    2.2,
-)  # line widths of frustums, pixels: usual, and where something moves in them
-_DEPTH = 0.11  # metres from a sensor to the base of its frustum
+THICKNESS, SEEING = 0.8, 1.5
+"""Line widths of frustums, pixels: usual, and where something moves in them."""
+_FILLED = 0.12  # opacity of the faces of frustums in which something moves
+FRUSTUM_DEPTH = 0.11  # metres from a sensor to the base of its frustum
 
 
 class SensorsView:
@@ -44,12 +43,16 @@ class SensorsView:
             scene.add_box(
                 f"{SENSORS}/{name}/body",
                 color=SENSOR,
-                dimensions=_BODY,
+                dimensions=BODY,
                 # The box lies behind the optical centre, where the chip is.
-                position=(0.0, 0.0, -_BODY[2] / 2),
+                position=(0.0, 0.0, -BODY[2] / 2),
             )
         self._frustums = [
             _add_frustum(scene, f"{FRUSTUMS}/{name}", sensor)
+            for name, sensor in zip(self._names, sensors, strict=True)
+        ]
+        self._faces = [
+            _add_faces(scene, f"{FRUSTUMS}/{name}/faces", sensor)
             for name, sensor in zip(self._names, sensors, strict=True)
         ]
 
@@ -67,7 +70,9 @@ class SensorsView:
         for index, frustum in enumerate(self._frustums):
             sees = index in seeing
             frustum.color = palette.flow if sees else palette.frustum
-            frustum.thickness = self._thicker * (_SEEING if sees else _THICKNESS)
+            frustum.thickness = self._thicker * (SEEING if sees else THICKNESS)
+            self._faces[index].visible = sees
+            self._faces[index].color = palette.flow
 
     def thicken(self, factor: float) -> None:
         """Multiply the line width of the frustums."""
@@ -99,14 +104,33 @@ def _add_frustum(
         node,
         fov=2 * float(np.arctan(half_height)),
         aspect=half_width / half_height,
-        # viser scales a frustum by its volume; this scale makes it _DEPTH long.
-        scale=_DEPTH * float(np.cbrt(half_width * half_height / 3)),
-        thickness=_THICKNESS,
+        # viser scales a frustum by its volume; this scale makes it FRUSTUM_DEPTH long.
+        scale=FRUSTUM_DEPTH * float(np.cbrt(half_width * half_height / 3)),
+        thickness=THICKNESS,
         thickness_units="screen",
         color=FRUSTUM,
         visible=False,
         cast_shadow=False,
         receive_shadow=False,
+    )
+
+
+def _add_faces(scene: viser.SceneApi, node: str, sensor: RecordedSensor) -> viser.MeshHandle:
+    """Faces of a frustum, a child of its lines."""
+    half_width, half_height = half_extents(sensor.directions)
+    corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * [half_width, half_height]
+    base = FRUSTUM_DEPTH * np.column_stack([corners, np.ones(4)])
+    sides = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1], [1, 4, 3], [1, 3, 2]])
+    return scene.add_mesh_simple(
+        node,
+        np.vstack([np.zeros(3), base]),
+        sides,
+        opacity=_FILLED,
+        flat_shading=True,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        visible=False,
     )
 
 

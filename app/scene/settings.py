@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
+from app.scene.colours import Colour
 from app.scene.palettes import PAPER, Palette, palette
+from app.scene.theme import background
 
 LAYERS = (
     "Robot",
@@ -12,7 +14,7 @@ LAYERS = (
     "Target",
     "Flow",
     "Truth",
-    "Truth ghost",
+    "True object",
     "Grid and axes",
 )
 """Layers that can be hidden, in the order of the list on the page."""
@@ -20,6 +22,9 @@ LAYERS = (
 SHOWN, DIMMED, HIDDEN = "Shown", "Dimmed", "Hidden"
 STATIC_SCENE = (SHOWN, DIMMED, HIDDEN)
 """How points of both clouds that do not move are drawn."""
+
+SOFT, WHITE, TRANSPARENT = "Soft", "White", "Transparent"
+"""Backgrounds of the drawing: the page's soft tone, white, or none in a picture."""
 
 ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER = "One colour", "Speed", "Direction", "Cluster"
 ARROW_COLOURS = (ONE_COLOUR, BY_SPEED, BY_DIRECTION, BY_CLUSTER)
@@ -38,8 +43,11 @@ class ViewSettings:
         arrow_colours: quantity that an arrow's colour encodes, one of `ARROW_COLOURS`.
         colours: name of the palette.
         dark: whether the page is dark.
+        behind: background of the drawing, `SOFT` on the page.
+        follows_system: whether it is dark as the system is, until a person chooses.
         legend: whether a legend lies over the scene.
         layers: that are visible.
+        strip: quantity that the timeline draws, by its name in a survey.
     """
 
     static_scene: str = DIMMED
@@ -48,10 +56,18 @@ class ViewSettings:
     arrow_colours: str = ONE_COLOUR
     colours: str = PAPER
     dark: bool = False
+    behind: str = SOFT
+    follows_system: bool = True
     legend: bool = True
     layers: frozenset[str] = frozenset(LAYERS)
+    strip: str = "moving"
 
     @property
     def palette(self) -> Palette:
         """The colours to draw with."""
         return palette(self.colours, self.dark)
+
+    @property
+    def background(self) -> Colour:
+        """Colour that what stands back is blended with."""
+        return (255, 255, 255) if self.behind == WHITE else background(self.dark)

@@ -12,6 +12,8 @@ from app.scene.colours import Colour
 from robot_assets import Robot
 
 _DARKEST = 84  # lowest channel value: darker meshes are invisible on a dark background
+_GRAIN = 1 / 4096  # metres, a power of two: vertices on such a grid are sent in half of the bytes
+_COARSE = 500  # faces: finer pieces are drawn with half of theirs
 # Faces that meet at a larger angle than this keep a sharp edge; others are smooth-shaded.
 _EDGE = np.radians(35.0)
 
@@ -76,6 +78,28 @@ def ring_through(positions: NDArray[np.float64]) -> trimesh.Trimesh | None:
     return torus
 
 
+def coarse(
+    vertices: NDArray[np.float32], faces: NDArray[np.uint32], cell: float
+) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+    """A surface with one vertex per cell: the mean of those in it.
+
+    Args:
+        vertices: (V, 3) metres.
+        faces: (F, 3) indices into them.
+        cell: edge of a cubic cell, metres.
+    """
+    cells = np.floor(vertices / cell).astype(np.int64)
+    _, merged, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
+    merged = merged.reshape(-1)
+    means = [np.bincount(merged, vertices[:, axis], len(count)) / count for axis in range(3)]
+    corners = merged[faces.astype(np.int64)]
+    a, b, c = corners.T
+    kept = corners[(a != b) & (b != c) & (c != a)]
+    # Of triangles on the same corners one is enough.
+    _, first = np.unique(np.sort(kept, axis=1), axis=0, return_index=True)
+    return np.stack(means, axis=1).astype(np.float32), kept[np.sort(first)].astype(np.uint32)
+
+
 def _parts(mesh: trimesh.Trimesh) -> tuple[Part, ...]:
     vertex_colours = np.asarray(mesh.visual.vertex_colors)  # type: ignore[union-attr]
     colours, of_face = np.unique(vertex_colours[mesh.faces[:, 0], :3], axis=0, return_inverse=True)
@@ -83,12 +107,28 @@ def _parts(mesh: trimesh.Trimesh) -> tuple[Part, ...]:
     for index, colour in enumerate(colours):
         piece = trimesh.Trimesh(mesh.vertices, mesh.faces[of_face.reshape(-1) == index])
         red, green, blue = (max(int(channel), _DARKEST) for channel in colour)
-        piece = trimesh.graph.smooth_shade(piece, angle=_EDGE)
+        piece = trimesh.graph.smooth_shade(_coarsened(piece), angle=_EDGE)
         parts.append(
             Part(
-                np.asarray(piece.vertices, dtype=np.float32),
+                (_GRAIN * np.round(piece.vertices / _GRAIN)).astype(np.float32),
                 np.asarray(piece.faces, dtype=np.uint32),
                 (red, green, blue),
             )
         )
     return tuple(parts)
+
+
+def _coarsened(piece: trimesh.Trimesh) -> trimesh.Trimesh:
+    """A fine mesh with half of its faces, where they change its shape least.
+
+    Robots' visual meshes are made for close-ups; a page would load them for seconds.
+    """
+    if len(piece.faces) <= _COARSE:
+        return piece
+    import open3d as o3d
+
+    mesh = o3d.geometry.TriangleMesh(
+        o3d.utility.Vector3dVector(piece.vertices), o3d.utility.Vector3iVector(piece.faces)
+    )
+    coarse = mesh.simplify_quadric_decimation(len(piece.faces) // 2)
+    return trimesh.Trimesh(np.asarray(coarse.vertices), np.asarray(coarse.triangles))

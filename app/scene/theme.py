@@ -17,4 +17,4 @@ def apply_theme(gui: viser.GuiApi, dark: bool) -> None:
 
 def background(dark: bool) -> Colour:
     """Background colour of the scene on a dark or a light page."""
-    return (20, 20, 20) if dark else (255, 255, 255)
+    return (22, 24, 28) if dark else (246, 247, 250)

@@ -1,4 +1,4 @@
-"""Geometry of the truth's arrow and ghost."""
+"""Geometry of the truth's arrow, and of the points that stand for the true object."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,16 @@ def truth_arrow(
     return middle + above * up, velocity
 
 
-def ghost(pair: Pair) -> NDArray[np.float64]:
+def object_points(pair: Pair) -> NDArray[np.float64]:
     """Moving source points displaced by their true motion over the interval, (M, 3)."""
     if pair.source is None or pair.truth is None or pair.truth.points is None:
         return np.zeros((0, 3))
     displacement = pair.interval * pair.truth.points
     moving = truly_moves(pair.truth.points)
     return pair.source.points[moving] + displacement[moving]
+
+
+def object_is_known(pair: Pair) -> bool:
+    """Whether the true object of a pair can be drawn, by its surface or by points."""
+    placed = (bool(np.isfinite(pose).all()) for pose in pair.object_poses.values())
+    return len(object_points(pair)) > 0 or any(placed)

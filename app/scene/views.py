@@ -6,14 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
-from app.scene.first_view import View, first_view, near_corners, percentile_corners
-from estimator import Label
+from app.scene.drawn_flow import moving_ends
+from app.scene.first_view import View, box_distance, first_view, near_corners, percentile_corners
 
-THREE_D, TOP, FRONT, ROBOT, FIT = "3D", "Top", "Front", "Robot", "Fit"
-VIEWS = (THREE_D, TOP, FRONT, ROBOT, FIT)
-"""Slanted; from above; from the front; from a sensor; what moves, else all, as seen before."""
+SLANTED, ABOVE, FRONT = "Slanted", "From above", "From the front"
+SENSORS, FIT = "From the sensors", "Fit what moves"
+VIEWS = (SLANTED, ABOVE, FRONT, SENSORS, FIT)
+"""Named after where they look from; the last keeps that, and shows all where nothing moves."""
+VIEW_FLAGS = {"3d": SLANTED, "top": ABOVE, "front": FRONT, "robot": SENSORS, "fit": FIT}
+"""{name on the command line: view}."""
 
 _MARGIN = 1.12
+_SMALLEST = 0.1  # metres, smallest half extent of a box that fills the picture
 _LEAN = 1e-3  # tilt of the view from above, which keeps its up direction defined
 
 
@@ -49,7 +53,7 @@ def named_view(
         pair: to be shown.
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         projection: of the camera.
-        before: the current view, whose direction `FIT` keeps.
+        before: the current view, whose direction `FIT` keeps; None for the slanted one's.
     """
     points = pair.target.points @ R_drawing_fixed.T
     poses = pair.target.T_fixed_sensor
@@ -63,22 +67,27 @@ def named_view(
         R_drawing_fixed,
         projection.fov,
         projection.aspect,
-        _arrows(pair),
+        [*moving_ends(pair), _landmarks(pair)],
     )
-    moving, tips = (ends @ R_drawing_fixed.T for ends in _arrows(pair))
-    if name == ROBOT and len(sensors):
+    moving, tips = (ends @ R_drawing_fixed.T for ends in moving_ends(pair))
+    if name == SENSORS and len(sensors):
         # Only sensors with a known pose have points.
         owner = (np.cumsum(placed) - 1)[pair.target.sensor]
-        return _from_robot(points, owner, sensors, axes, moving)
+        return _from_sensor(points, owner, sensors, axes, moving)
     if name == FIT:
         seen = np.vstack([moving, tips]) if len(moving) else np.vstack([points, sensors])
-        return _fitted(seen, projection, before or slanted)
+        return _fitted(seen, projection, before or slanted) if len(seen) else slanted
     box = np.vstack(
-        [*near_corners(points, sensors), *percentile_corners(moving), *percentile_corners(tips)]
+        [
+            *near_corners(points, sensors),
+            *percentile_corners(moving),
+            *percentile_corners(tips),
+            *percentile_corners(_landmarks(pair) @ R_drawing_fixed.T),
+        ]
     )
     low, high = box.min(axis=0), box.max(axis=0)
     centre, (x, y, z) = (low + high) / 2, high - low
-    if name == TOP:
+    if name == ABOVE:
         distance = projection.distance(x, y) + z / 2
         return View(centre + distance * np.array([0.0, -_LEAN, 1.0]), centre)
     if name == FRONT:
@@ -87,16 +96,13 @@ def named_view(
     return slanted
 
 
-def _arrows(pair: Pair) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Moving source points (M, 3), and where they went."""
-    if pair.source is None or pair.flow is None:
-        return np.zeros((0, 3)), np.zeros((0, 3))
-    moving = pair.flow.label == Label.MOVING
-    points = pair.source.points[moving]
-    return points, points + pair.interval * pair.flow.velocity[moving]
+def _landmarks(pair: Pair) -> NDArray[np.float64]:
+    """Origins (N, 3) of the robot's links and of the true objects, where known."""
+    poses = np.array([*pair.link_poses.values(), *pair.object_poses.values()]).reshape(-1, 4, 4)
+    return poses[np.isfinite(poses).all(axis=(1, 2)), :3, 3]
 
 
-def _from_robot(
+def _from_sensor(
     points: NDArray[np.float64],
     owner: NDArray[np.int64],
     sensors: NDArray[np.float64],
@@ -130,12 +136,11 @@ def _from_robot(
 
 
 def _fitted(points: NDArray[np.float64], projection: Projection, before: View) -> View:
-    """View of points (N, 3) in the current direction."""
-    if len(points) == 0:
-        return before
+    """View of points (N, 3), N >= 1, in the direction of another view."""
     # Outliers would push the camera away.
     low, high = np.percentile(points, [2, 98], axis=0)
-    centre, size = (low + high) / 2, float(np.linalg.norm(high - low))
+    centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
     direction = before.position - before.look_at
     direction = direction / np.linalg.norm(direction)
-    return View(centre + projection.distance(size, size) * direction, centre)
+    distance = box_distance(half, direction, np.tan(projection.fov / 2), projection.aspect)
+    return View(centre + _MARGIN * distance * direction, centre)

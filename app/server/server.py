@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import viser
 
 from app.browser.guarded_server import GuardedServer
+from app.browser.opening_card import front_page
 from app.errors import InputError
 from app.panels.page import TITLE
 from app.scene.theme import apply_theme
@@ -34,7 +35,9 @@ class Server:
         _check_free(host, port)
         self._sessions: dict[int, Session] = {}
         self._memory = MemoryRelease()
-        self._server = GuardedServer(host, port, TITLE, embedders)
+        self._server = GuardedServer(
+            host, port, TITLE, embedders, lambda html: front_page(html, TITLE)
+        )
         self.host, self.port = host, self._server.get_port()
         apply_theme(self._server.gui, dark=False)
         self._server.gui.main_panel.dock_right()

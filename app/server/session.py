@@ -4,31 +4,37 @@ import logging
 import threading
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from uuid import uuid4
 
 import viser
 
+from app.analysis.catalogue import Catalogue
 from app.analysis.estimates import Estimates
 from app.analysis.library import Entry, Library
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
-from app.browser.script import keep_token, take_link, take_token
+from app.browser.opening_card import show_nothing_open
+from app.browser.page_events import PageEvents
+from app.browser.script import keep_token, prefers_dark, take_link, take_token
 from app.errors import InputError, UserError
 from app.panels.page import Page, show_empty_page
 from app.panels.panel import PanelContext
 from app.scene.settings import ViewSettings
+from app.session.choice import Choice
 from app.session.command import Command
 from app.session.commands import (
     Move,
     OpenFirst,
     OpenRecording,
-    ReceiveSurveyUpdate,
+    ReceiveAbout,
+    ReceiveSurveyUpdates,
     ReceiveTaskEvents,
     Restore,
 )
-from app.session.followed_survey import FollowedSurvey
+from app.session.followed_sides import FollowedSides
 from app.session.links import SavedSession, from_token
+from app.session.open_requests import OpeningError
 from app.session.queue import CommandQueue
 from app.session.reload import Reloads
 from app.session.tasks import Tasks
@@ -37,6 +43,8 @@ from app.session.workbench import Workbench
 from estimator import Parameters
 
 _LOG = logging.getLogger(__name__)
+_NOT_DONE, _NOT_SHOWN = "That was not done", "Not everything can be shown"
+"""Titles of errors."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +57,7 @@ class Shared:
         reloads: ended sessions, for reloads of their pages.
         parameters: initial ones of a session.
         surveys: of whole recordings, computed in the background.
+        catalogue: of what is in the recordings, found out in the background.
     """
 
     library: Library
@@ -56,9 +65,12 @@ class Shared:
     reloads: Reloads
     parameters: Parameters
     surveys: Surveys = field(init=False)
+    catalogue: Catalogue = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "surveys", Surveys(self.estimates))
+        catalogue = Catalogue(self.library, self.estimates.foreground)
+        object.__setattr__(self, "catalogue", catalogue)
 
 
 class Session:
@@ -95,7 +107,8 @@ class Session:
             labels = [entry.label for entry in entries]
             if saved and saved.label not in labels:
                 self._report(
-                    f"The recording {saved.label} is not among those that are listed here."
+                    "Another recording is shown",
+                    f"The recording {saved.label} is not among those that are listed here.",
                 )
                 saved = None  # its parameters were chosen for that recording
             # Before there is a page, so that the user's commands come after it.
@@ -113,6 +126,9 @@ class Session:
             # A client that disconnects takes its page with it, also while that is being built.
             level = logging.WARNING if self._queue.closed else logging.ERROR
             _LOG.log(level, "A session has ended unexpectedly.", exc_info=True)
+            if not self._queue.closed:
+                said = "Something unexpected went wrong; reload this page."
+                show_nothing_open(self._client, said)
 
     def _resume(self) -> tuple[str, SavedSession | None]:
         """Token of this session, and the session to resume from a link or a reload, if any."""
@@ -125,13 +141,20 @@ class Session:
         except (RuntimeError, TimeoutError):
             pass  # a browser without storage starts a new session
         except InputError as error:
-            self._report(str(error))
+            self._report("The link cannot be followed", str(error))
         except Exception:
             # Whatever a browser keeps or sends must not keep anybody out.
             _LOG.exception("A link or a reload could not be followed.")
-            self._report("What this page showed before could not be found; it begins anew.")
+            sentence = "What this page showed before could not be found; it begins anew."
+            self._report("The page begins anew", sentence)
         keep_token(self._client, token)
         return token, saved
+
+    def _prefers_dark(self) -> bool:
+        try:
+            return prefers_dark(self._client, timeout=2.0)
+        except (RuntimeError, TimeoutError):
+            return False  # of a browser without storage
 
     def _build(
         self, entries: Sequence[Entry], saved: SavedSession | None
@@ -139,18 +162,24 @@ class Session:
         shared, post = self._shared, self._queue.post
         parameters = saved.parameters if saved else shared.parameters
         settings = saved.settings if saved else ViewSettings()
+        if settings.follows_system:
+            settings = replace(settings, dark=self._prefers_dark())
         workbench = Workbench(
             self._client,
             shared.library,
             shared.estimates,
-            entries,
+            Choice(
+                shared.library, shared.catalogue, entries, lambda found: post(ReceiveAbout(found))
+            ),
             Tuning(parameters, shared.parameters),
             settings,
-            FollowedSurvey(shared.surveys, lambda update: post(ReceiveSurveyUpdate(update))),
+            FollowedSides(shared.surveys, lambda update: post(ReceiveSurveyUpdates((update,)))),
             LiveTimeline(shared.estimates, shared.surveys),
             Tasks(lambda event: post(ReceiveTaskEvents((event,)))),
         )
-        return workbench, Page(PanelContext(self._client, entries, parameters, settings, post))
+        events = PageEvents(self._client)
+        context = PanelContext(self._client, parameters, settings, post, events)
+        return workbench, Page(context)
 
     def _serve(self, workbench: Workbench, page: Page) -> None:
         def due() -> float | None:
@@ -158,11 +187,11 @@ class Session:
 
         while (commands := self._queue.take(due())) is not None:
             fine = [
-                self._try(lambda command=command: self._apply(command, workbench, page))
+                self._try(lambda command=command: self._apply(command, workbench, page), _NOT_DONE)
                 for command in commands
             ]
-            fine.append(self._try(lambda: page.announce(workbench.status())))
-            fine.append(self._try(lambda: self._draw(workbench, page)))
+            fine.append(self._try(lambda: page.announce(workbench.status()), _NOT_SHOWN))
+            fine.append(self._try(lambda: self._draw(workbench, page), _NOT_SHOWN))
             if all(fine):
                 self._last_error = ""
 
@@ -184,27 +213,34 @@ class Session:
             if snapshot is not None:
                 page.show(snapshot)
 
-    def _try(self, action: Callable[[], None]) -> bool:
-        """Run an action, report its error to the user, and return whether it succeeded."""
+    def _try(self, action: Callable[[], None], failed: str) -> bool:
+        """Run an action, report its error to the user, and return whether it succeeded.
+
+        Args:
+            action: to run.
+            failed: title of its error.
+        """
         try:
             action()
+        except OpeningError as error:
+            self._report(error.title, str(error))
         except UserError as error:
-            self._report(str(error))
+            self._report(failed, str(error))
         except Exception as error:
             if self._queue.closed:
                 return False  # a client that disconnects takes its page with it
             sentence = f"Something unexpected went wrong ({type(error).__name__}: {error})."
-            if self._report(sentence):
+            if self._report(failed, sentence):
                 _LOG.exception("An unexpected error.")
         else:
             return True
         return False
 
-    def _report(self, sentence: str) -> bool:
+    def _report(self, title: str, sentence: str) -> bool:
         """Show an error to the user unless it repeats the last one; return whether it was shown."""
         # A recording broken at every frame must not show an error per frame.
         if sentence == self._last_error:
             return False
         self._last_error = sentence
-        self._client.add_notification("Tofscope", sentence, color="red", auto_close_seconds=15)
+        self._client.add_notification(title, sentence, color="red", auto_close_seconds=15)
         return True

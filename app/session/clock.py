@@ -12,6 +12,9 @@ from app.errors import InputError
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 """Selectable speeds, as multiples of the recording's own."""
 
+SHORT = 10.0
+"""Seconds; shorter recordings are played again and again unless one chooses otherwise."""
+
 LONGEST_WAIT = 5.0
 """Seconds; threads cannot wait for as long as stamps may be apart."""
 
@@ -38,13 +41,13 @@ class PlaybackClock:
 
     Args:
         stamps: (K,) seconds, strictly increasing.
-        like: playback whose speed and loop are kept.
+        like: playback whose speed is kept.
     """
 
     def __init__(self, stamps: Iterable[float], like: Playback | None = None) -> None:
         self._stamps = [float(stamp) for stamp in stamps]
-        whole = Playback(0, len(self._stamps) - 1)
-        self.playback = replace(like, first=whole.first, last=whole.last) if like else whole
+        whole = Playback(0, len(self._stamps) - 1, loop=self._stamps[-1] - self._stamps[0] < SHORT)
+        self.playback = replace(whole, speed=like.speed) if like else whole
         # Seconds to show the last frame before a loop restarts.
         self._period = float(np.median(np.diff(self._stamps))) if whole.last > 0 else 0.1
         self._start: tuple[float, float] | None = (

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
 
+from app.analysis.catalogue import About
 from app.errors import InputError
 from app.session.command import Background, LatestWins, Repeated
 from app.session.followed_survey import SurveyUpdate
@@ -101,20 +102,19 @@ class ChangeParameters:
 
     Attributes:
         values: {parameter: value}.
-        at_end: names of those at an end of their slider, possibly clamped by the browser.
+        ranges: {parameter: (smallest, largest)} of the controls.
     """
 
     values: Mapping[str, Any]
-    at_end: frozenset[str] = frozenset()
+    ranges: Mapping[str, tuple[float, float]]
 
     def merged_with(self, earlier: Self) -> Self:
         """Both changes, the later value of each parameter."""
-        at_end = self.at_end | (earlier.at_end - self.values.keys())
-        return type(self)({**earlier.values, **self.values}, at_end)
+        return type(self)({**earlier.values, **self.values}, {**earlier.ranges, **self.ranges})
 
     def apply(self, workbench: Workbench) -> None:
-        """Apply or refuse the values."""
-        workbench.tuning.enter(self.values, self.at_end, monotonic())
+        """Apply the values, or the nearest in their ranges."""
+        workbench.tuning.enter(self.values, self.ranges, monotonic())
 
 
 @dataclass(frozen=True)
@@ -159,14 +159,49 @@ class Refuse(LatestWins):
 
 
 @dataclass(frozen=True)
-class ReceiveSurveyUpdate(Background, LatestWins):
-    """Receive an update of the background survey."""
+class FollowSystem(LatestWins):
+    """The system of the person at the page is dark or light now."""
 
-    update: SurveyUpdate
+    dark: bool
 
     def apply(self, workbench: Workbench) -> None:
-        """Pass it to the session's survey."""
-        workbench.survey.receive(self.update)
+        """Be as it is, unless a person chose by hand."""
+        settings = workbench.settings
+        if settings.follows_system and settings.dark != self.dark:
+            workbench.change_view({"dark": self.dark, "follows_system": True})
+
+
+@dataclass(frozen=True)
+class ReceiveAbout(Background):
+    """Receive what is in listed recordings, {label: what was found}."""
+
+    found: Mapping[str, About]
+
+    def merged_with(self, earlier: Self) -> Self:
+        """Both, the later of each recording."""
+        return type(self)({**earlier.found, **self.found})
+
+    def apply(self, workbench: Workbench) -> None:
+        """Pass it to the list."""
+        workbench.choice.receive(self.found)
+
+
+@dataclass(frozen=True)
+class ReceiveSurveyUpdates(Background):
+    """Receive updates of background surveys."""
+
+    updates: tuple[SurveyUpdate, ...]
+
+    def merged_with(self, earlier: Self) -> Self:
+        """The last update of each survey."""
+        again = [update.requested for update in self.updates]
+        before = (u for u in earlier.updates if not any(u.requested is r for r in again))
+        return type(self)((*before, *self.updates))
+
+    def apply(self, workbench: Workbench) -> None:
+        """Pass them to the session's surveys."""
+        for update in self.updates:
+            workbench.surveys.receive(update)
 
 
 @dataclass(frozen=True)

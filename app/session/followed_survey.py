@@ -42,6 +42,10 @@ class FollowedSurvey:
         self.survey: Survey | None = None
         self.revision = 0
 
+    def follows(self, opened: Opened, parameters: Parameters) -> bool:
+        """Whether the survey of a recording with these parameters is followed."""
+        return self._requested == (opened, parameters)
+
     def follow(self, opened: Opened, parameters: Parameters) -> None:
         """Request the survey of a recording with these parameters, unless it is followed already.
 
@@ -49,9 +53,9 @@ class FollowedSurvey:
             opened: must stay open until the next `follow` or `stop`.
             parameters: of the estimates.
         """
-        requested = (opened, parameters)
-        if requested == self._requested:
+        if self.follows(opened, parameters):
             return
+        requested = (opened, parameters)
         self._requested, self.survey, notify = requested, None, self._notify
         self._surveys.request(
             self, *requested, lambda survey: notify(SurveyUpdate(requested, survey))

@@ -8,17 +8,20 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
-from app.analysis.comparison import Comparison
+from app.analysis.comparison import A, B, Comparison
 from app.analysis.parameter_files import from_text
+from app.analysis.quantities import QUANTITIES
 from app.errors import InputError
 from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
 from app.session.clock import Playback
+from app.session.linked_view import LinkedView, one_of
 from estimator import Parameters, to_nested
 
-_LONGEST = 4000  # characters of a link's token
+_LONGEST = 6000  # characters of a link's token
 _FARTHEST = 1e5  # metres
 _FRAMES = 10**9  # more than any recording has
+_CLUSTERS = 10**6  # more than any pair has
 _DAMAGED = "The link is damaged; copy it once more."
 
 
@@ -35,6 +38,8 @@ class SavedSession:
         comparison: with a second set of parameters, None without one.
         playback: of the recording, None for the defaults.
         playing: whether playback is running.
+        picked: index of the picked cluster, None without one.
+        plotted_pair: quantities (x, y) plotted against each other, None for none.
     """
 
     label: str
@@ -45,22 +50,31 @@ class SavedSession:
     comparison: Comparison | None = None
     playback: Playback | None = None
     playing: bool = False
+    picked: int | None = None
+    plotted_pair: tuple[str, str] | None = None
 
     def token(self) -> str:
-        """Encode recording, frame, parameters and camera as a URL-safe token.
+        """Encode all of it as a URL-safe token, but for what is personal to the sender.
 
-        View settings, comparison and playback are left out, as personal to the sender.
+        That is the playback, and whether the page is dark. Defaults are left out.
         """
-        defaults = to_nested(Parameters())
         content: dict[str, Any] = {"recording": self.label, "frame": self.frame}
-        content["parameters"] = {
-            name: value
-            for name, value in to_nested(self.parameters).items()
-            if name not in defaults or value != defaults[name]
-        }
+        content["parameters"] = _differences(self.parameters)
         if self.camera:
             numbers = (*self.camera.position, *self.camera.look_at, self.camera.fov)
             content["camera"] = [round(number, 4) for number in numbers]
+        if self.comparison:
+            content["comparison"] = {
+                "other": _differences(self.comparison.other),
+                "edited": self.comparison.edited,
+                "both": self.comparison.both,
+            }
+        if view := LinkedView.of(self.settings).model_dump(exclude_defaults=True):
+            content["view"] = view
+        if self.picked is not None:
+            content["picked"] = self.picked
+        if self.plotted_pair is not None:
+            content["plotted"] = self.plotted_pair
         text = json.dumps(content, separators=(",", ":"))
         return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
 
@@ -79,23 +93,65 @@ def from_token(token: str) -> SavedSession:
         camera = link.camera and _camera(link.camera)
     except ValueError as error:  # includes those of base64 and pydantic
         raise InputError(_DAMAGED) from error
-    parameters = from_text(json.dumps(link.parameters), "The link")
-    return SavedSession(link.recording, link.frame, parameters, camera)
+    comparison = link.comparison and Comparison(
+        _parameters(link.comparison.other), link.comparison.edited, link.comparison.both
+    )
+    return SavedSession(
+        link.recording,
+        link.frame,
+        _parameters(link.parameters),
+        camera,
+        link.view.settings(),
+        comparison,
+        picked=link.picked,
+        plotted_pair=link.plotted,
+    )
 
 
 _Metres = Annotated[float, Field(gt=-_FARTHEST, lt=_FARTHEST)]
 _Radians = Annotated[float, Field(gt=0.01, lt=3.0)]
 
 
-class _Link(BaseModel):
-    """Content of a token, validated strictly."""
+_Quantity = Annotated[str, one_of(QUANTITIES)]
+
+
+class _Content(BaseModel):
+    """Base of what a token holds, validated strictly."""
 
     model_config = ConfigDict(strict=True, allow_inf_nan=False)
+
+
+class _Comparison(_Content):
+    other: dict[str, JsonValue]
+    edited: Annotated[str, one_of((A, B))]
+    both: bool
+
+
+class _Link(_Content):
+    """Content of a token; that of older links lacks all that has a default."""
 
     recording: str
     frame: Annotated[int, Field(ge=0, lt=_FRAMES)]
     parameters: dict[str, JsonValue]
     camera: tuple[_Metres, _Metres, _Metres, _Metres, _Metres, _Metres, _Radians] | None = None
+    comparison: _Comparison | None = None
+    view: LinkedView = LinkedView()
+    picked: Annotated[int, Field(ge=0, lt=_CLUSTERS)] | None = None
+    plotted: tuple[_Quantity, _Quantity] | None = None
+
+
+def _differences(parameters: Parameters) -> dict[str, Any]:
+    """{name: value} of the parameters that differ from the defaults."""
+    defaults = to_nested(Parameters())
+    return {
+        name: value
+        for name, value in to_nested(parameters).items()
+        if name not in defaults or value != defaults[name]
+    }
+
+
+def _parameters(differences: dict[str, JsonValue]) -> Parameters:
+    return from_text(json.dumps(differences), "The link")
 
 
 def _camera(numbers: tuple[float, float, float, float, float, float, float]) -> Camera:

@@ -45,4 +45,9 @@ class LinkToCopy:
     token: str
 
 
-Message = Notice | Download | LinkToCopy
+@dataclass(frozen=True)
+class EnlargePlots:
+    """The plots are laid over the window, or put back."""
+
+
+Message = Notice | Download | LinkToCopy | EnlargePlots

@@ -1,6 +1,7 @@
 """Parameters under names, as files in the user's own folder."""
 
 import re
+import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -12,6 +13,10 @@ from app.errors import InputError
 from app.output.checks import PARAMETERS, check_output
 from app.output.writing import write
 from estimator import Parameters
+
+PresetAction = Literal["load", "save", "rename", "delete"]
+
+_PATIENCE = 10.0  # seconds within which a question is answered
 
 # Letters, digits and what stands between them: no path can be made of it, and no hidden file.
 _NAME = re.compile(r"\w(?:[\w .-]{0,48}[\w-])?")
@@ -29,12 +34,23 @@ class PresetUse:
     Attributes:
         action: tried with it.
         name: of the preset.
-        done: whether it could be.
+        done: whether it was done.
+        asked: seconds of a monotonic clock at which a question was asked instead, None without one.
     """
 
-    action: Literal["load", "save", "delete"]
+    action: PresetAction
     name: str
     done: bool
+    asked: float | None = None
+
+    def confirms(self, before: "PresetUse | None", now: float) -> bool:
+        """Whether this use repeats an earlier one that was answered with a question."""
+        return (
+            before is not None
+            and before.asked is not None
+            and (before.action, before.name) == (self.action, self.name)
+            and now < before.asked + _PATIENCE
+        )
 
 
 class Presets:
@@ -74,6 +90,17 @@ class Presets:
         check_output(path, PARAMETERS)
         write(path, to_text(parameters).encode())
 
+    def rename(self, name: str, new_name: str) -> None:
+        """Give a preset another name.
+
+        Raises:
+            InputError: there is no such preset, or the new name is in use or cannot be used.
+        """
+        if new_name in self.names():
+            raise InputError(f"There is a preset {new_name} already; choose another name.")
+        self.save(new_name, self.load(name))
+        self.delete(name)
+
     def delete(self, name: str) -> None:
         """Forget a name.
 
@@ -93,3 +120,8 @@ class Presets:
                 f"50 of them at most, and begins with a letter or digit; got {name[:60]!r}."
             )
         return self._folder / f"{name}.json"
+
+
+def composed(name: str) -> str:
+    """A typed name without spaces around it, with letters as one character each (NFC)."""
+    return unicodedata.normalize("NFC", name.strip())

@@ -9,26 +9,16 @@ from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.analysis.timeline import Timeline
 from app.scene.legend import Legend
+from app.scene.scale_bar import ScaleBar
 from app.scene.settings import ViewSettings
+from app.session.choice import Listing
 from app.session.clock import Playback
+from app.session.inspection import Inspected
+from app.session.marks import Mark
 from app.session.outbox import Message
 from app.session.presets import PresetUse
 from app.session.tasks import TaskState
-from app.session.tuning import Refusal
 from estimator import Parameters
-
-
-@dataclass(frozen=True)
-class TimeSeek:
-    """Seek to a time typed by the user; each seek is a new object.
-
-    Attributes:
-        seconds: from the start, as typed.
-        frame: nearest to that time.
-    """
-
-    seconds: float
-    frame: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,10 +28,11 @@ class Status:
     Attributes:
         opening: label of the recording being opened, None without one.
         opened: the open recording, None without one.
+        listing: recordings to choose from.
         parameters: of the estimate.
         parameters_revision: incremented when parameters change other than by their controls, which
             must then be updated.
-        refusals: {parameter: its refused entry}, the latest last.
+        corrections: {parameter: what became of its entry, a sentence}, the latest last.
         preset_use: the last use of a preset, None before the first.
         tasks: running in the background.
         outbox: messages to send to the browser, exactly once.
@@ -49,9 +40,10 @@ class Status:
 
     opening: str | None
     opened: Opened | None
+    listing: Listing
     parameters: Parameters
     parameters_revision: int
-    refusals: Mapping[str, Refusal]
+    corrections: Mapping[str, str]
     preset_use: PresetUse | None
     tasks: tuple[TaskState, ...]
     outbox: tuple[Message, ...]
@@ -67,17 +59,22 @@ class Snapshot(Status):
         comparison: with other parameters, None without one.
         settings: of the drawing.
         legend: of the drawing.
+        scale_bar: of the page's camera, in parts of the scene's height; None without a scale.
         pair: of the frame, None if it could not be drawn.
         other: the pair with the other parameters, None unless estimated.
         picked: index of the picked cluster in the pair's flow, None without one.
-        picked_in_scene: number of clusters picked by clicks in the scene so far.
         playing: whether playback is running.
         playback: of the recording.
+        marks: of the recording, in the order of their frames.
+        edited_mark: number of times that the mark at the frame was to be edited.
+        plotted_pair: quantities (x, y) plotted against each other, None for none.
         timeline: of the recording, as far as known.
         seeking: whether the user is moving the frame slider, which must then not be set.
-        time_seek: the last seek to a typed time, None before the first.
         survey: with these parameters, as far as filled; None before its first update.
         survey_revision: number of updates of the survey, which is filled in place.
+        other_survey: with the other parameters, None without any or before its first update.
+        other_survey_revision: number of its updates.
+        inspected: zones and sensor that a person looks at.
     """
 
     opened: Opened
@@ -85,14 +82,19 @@ class Snapshot(Status):
     comparison: Comparison | None
     settings: ViewSettings
     legend: Legend
+    scale_bar: ScaleBar | None
     pair: Pair | None
     other: Pair | None
     picked: int | None
-    picked_in_scene: int
     playing: bool
     playback: Playback
+    marks: tuple[Mark, ...]
+    edited_mark: int
+    plotted_pair: tuple[str, str] | None
     timeline: Timeline
     seeking: bool
-    time_seek: TimeSeek | None
     survey: Survey | None
     survey_revision: int
+    other_survey: Survey | None
+    other_survey_revision: int
+    inspected: Inspected

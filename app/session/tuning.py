@@ -1,26 +1,21 @@
-"""Edited parameters with comparison, history and refused entries."""
+"""Edited parameters with comparison, history and corrected entries."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
 from typing import Any
 
 from app.analysis.comparison import Comparison
 from app.session.history import ParameterHistories
-from estimator import ParameterError, Parameters, changed, values_of
+from estimator import (
+    PARAMETER_INFO,
+    ParameterError,
+    ParameterInfo,
+    Parameters,
+    changed,
+    find_method,
+    values_of,
+)
 
-
-@dataclass(frozen=True)
-class Refusal:
-    """Refused entry of a parameter's value.
-
-    Attributes:
-        reason: a sentence.
-        clamped: whether the browser has since clamped it to an end of the slider: the control must
-            then show the value in use, and the reason stays readable for a while.
-    """
-
-    reason: str
-    clamped: bool = False
+Ends = tuple[float, float]
 
 
 class Tuning:
@@ -33,46 +28,47 @@ class Tuning:
     Attributes:
         parameters: the edited ones.
         comparison: with a second set of parameters, None without one.
-        refusals: {parameter: its refused entry}, the latest last.
+        corrections: {parameter: what became of its entry, a sentence}, the latest last.
         revision: incremented when parameters change other than by their controls.
     """
 
     def __init__(self, parameters: Parameters, defaults: Parameters) -> None:
         self.parameters = parameters
         self.comparison: Comparison | None = None
-        self.refusals: dict[str, Refusal] = {}
+        self.corrections: dict[str, str] = {}
         self.revision = 0
         self._defaults = defaults
         self._histories = ParameterHistories()
 
-    def enter(self, values: Mapping[str, Any], at_end: Iterable[str], now: float) -> None:
-        """Apply values of controls, {parameter: value}, or refuse all of them.
+    def enter(self, values: Mapping[str, Any], ranges: Mapping[str, Ends], now: float) -> None:
+        """Apply values of controls, {parameter: value}; a number beyond its range becomes an end.
 
-        When a slider's field loses the focus, the browser clamps a refused value to the slider's
-        range. The clamped value is not the user's entry and is not applied.
+        When a field loses the focus, the browser sends such an end, too: what was said of the entry
+        then stays.
 
         Args:
             values: as entered.
-            at_end: names of those at an end of their slider.
+            ranges: {parameter: (smallest, largest)} of their controls.
             now: seconds of a monotonic clock.
         """
-        for name in at_end:
-            refusal = self.refusals.get(name)
-            if refusal is not None and not refusal.clamped:
-                self.refusals[name] = replace(refusal, clamped=True)
-                values = {other: value for other, value in values.items() if other != name}
-        if not values:
-            return
+        nearest = {name: _nearest(value, ranges.get(name)) for name, value in values.items()}
+        said = {
+            name: _sentence(name, values[name], nearest[name], ranges[name])
+            for name in values
+            if nearest[name] != values[name]
+        }
         try:
-            after = changed(self.parameters, values)
+            after = changed(self.parameters, {n: _parameter(n, v) for n, v in nearest.items()})
         except ParameterError as error:
-            for name in values:
-                self.refusals.pop(name, None)
-                self.refusals[name] = Refusal(str(error))
+            said, after = dict.fromkeys(values, str(error)), self.parameters
+        if after == self.parameters and not said:
             return
-        self._histories.of(self.comparison).note(self.parameters, after, now)
-        self.parameters = after
-        self.refusals.clear()
+        for name in values:
+            self.corrections.pop(name, None)
+        self.corrections.update(said)
+        if after != self.parameters:
+            self._histories.of(self.comparison).note(self.parameters, after, now)
+            self.parameters = after
 
     def set(self, parameters: Parameters) -> None:
         """Replace the parameters, as one change."""
@@ -100,5 +96,31 @@ class Tuning:
 
     def _replace(self, parameters: Parameters) -> None:
         self.parameters = parameters
-        self.refusals.clear()
+        self.corrections.clear()
         self.revision += 1
+
+
+def _nearest(value: Any, ends: Ends | None) -> Any:  # noqa: ANN401 (of any parameter)
+    if ends is None or isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    low, high = (type(value)(end) if abs(end) < float("inf") else end for end in ends)
+    return min(max(value, low), high)
+
+
+def _parameter(name: str, number: Any) -> Any:  # noqa: ANN401
+    """The value that a control's number stands for: below the smallest, an unset one."""
+    info = _info(name)
+    unset = info.optional and isinstance(number, int | float) and number < info.low
+    return None if unset else number
+
+
+def _sentence(name: str, entered: float, used: float, ends: Ends) -> str:
+    info = _info(name)
+    unit = f" {info.unit}" if info.unit else ""
+    title = info.symbol or name.replace("_", " ")
+    return f"{title} goes from {ends[0]:g} to {ends[1]:g}{unit}: {entered:g} became {used:g}."
+
+
+def _info(name: str) -> ParameterInfo:
+    method = name.rpartition(".")[0]
+    return find_method(method).infos()[name] if method else PARAMETER_INFO[name]

@@ -5,30 +5,35 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from typing import Any
 
-import numpy as np
 import viser
 
-from app.analysis.comparison import A, Comparison, estimate_frame
 from app.analysis.estimates import Estimates
 from app.analysis.first_frame import first_frame_with_flow
-from app.analysis.library import Entry, Library, Opened
+from app.analysis.library import Library, Opened
 from app.analysis.live_timeline import LiveTimeline
+from app.analysis.notes import notes
 from app.analysis.pairs import Pair
-from app.analysis.selection import Selection, cluster_at, cluster_of
+from app.analysis.selection import cluster_of
+from app.errors import InputError
 from app.scene.framing import Framing
+from app.scene.pointer_view import PointerView
 from app.scene.rendering import SceneRenderer
 from app.scene.scene import Scene
 from app.scene.settings import ViewSettings
+from app.session.choice import Choice
 from app.session.clock import PlaybackClock
-from app.session.followed_survey import FollowedSurvey
+from app.session.drawing import Drawing
+from app.session.followed_sides import FollowedSides
+from app.session.inspection import Inspection
 from app.session.links import SavedSession
+from app.session.marks import Marks
 from app.session.open_requests import OpenRequests
 from app.session.outbox import Message, Notice
 from app.session.presets import PresetUse
-from app.session.snapshot import Snapshot, Status, TimeSeek
+from app.session.snapshot import Snapshot, Status
 from app.session.tasks import Tasks
 from app.session.tuning import Tuning
-from estimator import Parameters
+from estimator import ClusterResult
 
 
 class Workbench:
@@ -38,10 +43,10 @@ class Workbench:
         client: the browser client, on which the scene is drawn.
         library: opens recordings.
         estimates: computes and caches flows.
-        entries: the listed recordings.
+        choice: of the recordings that may be opened.
         tuning: parameters, initially.
         settings: of the drawing, initially.
-        survey: of the open recording.
+        surveys: of the open recording.
         timeline: of the open recording.
         tasks: in the background.
 
@@ -50,14 +55,16 @@ class Workbench:
         opened: the open recording, None without one.
         frame: k.
         clock: of the playback.
-        time_seek: the last seek to a typed time, None before the first.
         tuning: the parameters.
         settings: of the drawing; changed by `change_view`.
         scene: in the client's browser.
         framing: moves the scene's camera to views.
         renderer: renders pictures of the scene.
-        pair: that is drawn, None without one.
+        inspection: of zones and sensors.
         preset_use: the last use of a preset, None before the first.
+        marks: of the open recording, None without one.
+        edited_mark: number of times that a mark was to be edited.
+        plotted_pair: quantities (x, y) that are plotted against each other, None for none.
         outbox: messages for the browser, emptied by the next status or snapshot.
     """
 
@@ -66,39 +73,43 @@ class Workbench:
         client: viser.ClientHandle,
         library: Library,
         estimates: Estimates,
-        entries: Sequence[Entry],
+        choice: Choice,
         tuning: Tuning,
         settings: ViewSettings,
-        survey: FollowedSurvey,
+        surveys: FollowedSides,
         timeline: LiveTimeline,
         tasks: Tasks,
     ) -> None:
         self._client = client
         self.library, self.estimates = library, estimates
         self.tuning, self.settings = tuning, settings
-        self.survey, self.timeline, self.tasks = survey, timeline, tasks
-        self.open_requests = OpenRequests(library, entries)
+        self.surveys, self.timeline, self.tasks = surveys, timeline, tasks
+        self.choice = choice
+        self.open_requests = OpenRequests(library, choice.listing.entries)
         self.opened: Opened | None = None
         self.clock = PlaybackClock([0.0])
         self.frame = 0
-        self.time_seek: TimeSeek | None = None
         self.scene = Scene(client, settings)
         self.framing = Framing(client, self.scene)
         self.renderer = SceneRenderer(client, self.scene)
-        self.pair: Pair | None = None
+        self.inspection = Inspection(PointerView(client), self.scene)
+        self._drawing = Drawing(client, estimates, self.scene, self.framing)
         self.preset_use: PresetUse | None = None
+        self.marks: Marks | None = None
+        self.edited_mark = 0
+        self.plotted_pair: tuple[str, str] | None = None
         self.outbox: list[Message] = []
-        self._other: Pair | None = None
-        self._drawn: tuple[Opened, int, Parameters, Comparison | None] | None = None
-        self._selection = Selection()
-        self._picked: int | None = None
-        self._picked_in_scene = 0
+
+    @property
+    def pair(self) -> Pair | None:
+        """The pair that is drawn, None without one."""
+        return self._drawing.pair
 
     def open_next(self) -> None:
         """Open the next requested recording in place of the open one.
 
         Raises:
-            InputError: requested recordings could not be opened, and none is left to try.
+            OpeningError: requested recordings could not be opened, and none is left to try.
         """
         opened = self.open_requests.try_next()
         if opened is not None:
@@ -112,12 +123,13 @@ class Workbench:
         if self.clock.playing:
             self.frame = self.clock.advance(time.monotonic())
         parameters = self.tuning.parameters
-        wanted = (self.opened, self.frame, parameters, self.tuning.comparison)
+        comparison = self.tuning.comparison
         try:
-            if wanted != self._drawn:
-                self._draw_pairs(*wanted)
+            self._drawing.draw(self.opened, self.frame, parameters, comparison)
         finally:
-            self.survey.follow(self.opened, parameters)
+            other = comparison.other if comparison else None
+            self.surveys.follow(self.opened, parameters, other)
+        self.inspection.follow(self.opened, self.pair, parameters.max_range, self.settings)
 
     def seek(self, frame: int) -> None:
         """Go to a frame, clipped to the recording."""
@@ -140,23 +152,28 @@ class Workbench:
             self.clock.play(start, time.monotonic())
 
     def change_view(self, values: Mapping[str, Any]) -> None:
-        """Change some settings of the drawing, {name: value}."""
+        """Change some settings of the drawing, {name: value}.
+
+        A page that was made dark or light by hand does not follow the system any more.
+        """
+        if "dark" in values:
+            values = {"follows_system": False, **values}
         self.settings = replace(self.settings, **values)
         self.scene.change(self.settings)
 
+    @property
+    def picked(self) -> ClusterResult | None:
+        """The picked cluster of the pair, None for none."""
+        return None if self.pair is None else cluster_of(self.pair, self._drawing.picked)
+
     def pick(self, cluster: int | None) -> None:
         """Pick the cluster with this index, or none."""
-        if self.pair is not None:
-            self._selection.pick(self.pair, cluster)
-            self._picked = self._selection.follow(self.pair)
-            self.scene.mark(self.pair, cluster_of(self.pair, self._picked))
+        self._drawing.pick(cluster)
 
     def pick_at(self, origin: Sequence[float], direction: Sequence[float]) -> None:
-        """Pick the cluster hit by a ray, origin and direction (3,) in the drawing, or none."""
+        """Pick cluster, zone and sensor hit by a ray (3,), (3,) in the drawing, or none."""
         if self.pair is not None:
-            ray = (self.scene.in_fixed_frame(np.array(v)) for v in (origin, direction))
-            self.pick(cluster_at(self.pair, *ray))
-            self._picked_in_scene += self._picked is not None
+            self.pick(self.inspection.pin_along(origin, direction))
 
     def saved(self) -> SavedSession | None:
         """State that a reload of the page restores, None without an open recording."""
@@ -171,6 +188,8 @@ class Workbench:
             comparison=self.tuning.comparison,
             playback=self.clock.playback,
             playing=self.clock.playing,
+            picked=self._drawing.picked,
+            plotted_pair=self.plotted_pair,
         )
 
     def restore(self, saved: SavedSession) -> None:
@@ -180,6 +199,8 @@ class Workbench:
         """
         self.seek(saved.frame)
         self.tuning.comparison = saved.comparison
+        self.plotted_pair = saved.plotted_pair
+        self._drawing.await_cluster(saved.picked)
         if saved.camera:
             self.framing.start_from(saved.camera)
         if saved.playback:
@@ -208,23 +229,29 @@ class Workbench:
             comparison=self.tuning.comparison,
             settings=self.settings,
             legend=self.scene.legend,
+            scale_bar=self.framing.scale_bar,
             pair=self.pair,
-            other=self._other,
-            picked=self._picked,
-            picked_in_scene=self._picked_in_scene,
+            other=self._drawing.other,
+            picked=self._drawing.picked,
             playing=self.clock.playing,
             playback=self.clock.playback,
+            marks=self.marks.known if self.marks else (),
+            edited_mark=self.edited_mark,
+            plotted_pair=self.plotted_pair,
             timeline=self.timeline.of(self.opened, self.tuning.parameters),
             seeking=seeking,
-            time_seek=self.time_seek,
-            survey=self.survey.survey,
-            survey_revision=self.survey.revision,
+            survey=self.surveys.edited.survey,
+            survey_revision=self.surveys.edited.revision,
+            other_survey=self.surveys.other.survey,
+            other_survey_revision=self.surveys.other.revision,
+            inspected=self.inspection.inspected,
             **self._status(),
         )
 
     def close(self) -> None:
         """End all tasks, and release the recording."""
         self.tasks.end()
+        self.choice.leave()
         if self.opened is not None:
             self._release(self.opened)
             self.opened = None
@@ -235,50 +262,32 @@ class Workbench:
             self._release(before)
         recording = opened.recording
         self.clock = PlaybackClock(recording.stamps, like=self.clock.playback)
+        self.marks = Marks(opened.entry.path, recording.stamps)
+        try:
+            self.marks.load()
+        except InputError as error:
+            self.outbox.append(Notice("Marks", str(error), "yellow", seconds=15.0))
         self.frame = first_frame_with_flow(opened, self.tuning.parameters, self.estimates)
-        self.time_seek = None
-        self._selection.drop()
+        self._drawing.drop()
         with self._client.atomic():
             self.scene.open(recording)
-        self.outbox += [
-            Notice(opened.entry.label, warning, "yellow", seconds=15.0)
-            for warning in recording.warnings
-        ]
+        if notes(recording):
+            said = "Notes on this recording stand beside its name."
+            self.outbox.append(Notice(opened.entry.label, said, "yellow", replaces=True))
 
     def _release(self, opened: Opened) -> None:
-        self.survey.stop()
+        self.surveys.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:
         outbox, self.outbox = tuple(self.outbox), []
         return {
             "opening": self.open_requests.label,
+            "listing": self.choice.listing,
             "parameters": self.tuning.parameters,
             "parameters_revision": self.tuning.revision,
-            "refusals": dict(self.tuning.refusals),
+            "corrections": dict(self.tuning.corrections),
             "preset_use": self.preset_use,
             "tasks": self.tasks.states,
             "outbox": outbox,
         }
-
-    def _draw_pairs(
-        self, opened: Opened, frame: int, parameters: Parameters, comparison: Comparison | None
-    ) -> None:
-        self.pair = self._other = None
-        found = estimate_frame(self.estimates, opened, frame, parameters, comparison)
-        self.pair, self._other = found.pair, found.other
-        with self._client.atomic():
-            self._picked = self._selection.follow(found.pair)
-            self.scene.show(
-                found.pair,
-                found.second,
-                comparison.edited if comparison else A,
-                cluster_of(found.pair, self._picked),
-            )
-            if self._drawn is None or self._drawn[0] is not opened:
-                self.framing.begin(found.pair)
-            else:
-                self.framing.retry_first_view(found.pair)
-        self._drawn = (opened, frame, parameters, comparison)
-        if found.problem is not None:
-            raise found.problem

@@ -4,6 +4,8 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
+from recordings.object_meshes import ObjectMesh
+from recordings.object_truth import OBJECT_FRAME, TARGET_FRAME
 from recordings.simulation.arm import Arm
 from recordings.simulation.body import OWN_ROBOT, SECOND_ROBOT, TARGET, Actor, Body
 from recordings.simulation.inverse_kinematics import FLANGE, inverse_kinematics
@@ -77,6 +79,17 @@ class Scene:
         if self._velocity_suffices:
             return {}
         return {actor.number: actor.motion.pose(time) for actor in self._actors}
+
+    @property
+    def meshes(self) -> dict[str, ObjectMesh]:
+        """{frame in /tf: surface} of the actors."""
+        frames = [TARGET_FRAME, *(f"{OBJECT_FRAME}{actor.number}" for actor in self._actors[1:])]
+        return {
+            frame: ObjectMesh(
+                np.asarray(actor.mesh.vertices, np.float32), np.asarray(actor.mesh.faces, np.uint32)
+            )
+            for frame, actor in zip(frames, self._actors, strict=True)
+        }
 
     def bodies(self, time: float) -> list[Body]:
         """The actors and the links of the robots."""

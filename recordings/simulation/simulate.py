@@ -62,11 +62,10 @@ def simulate(
     rig.check_links(robot.links, robot.name)
     if scenario.still and speed != 0.0:
         raise ValueError(f"In {scenario.name} nothing moves; its speed is 0, got {speed}.")
-    key = [seed, trial, round(speed * 1e6), *scenario.name.encode()]
+    key = _key(scenario, speed, trial, seed)
     rng, streams = np.random.default_rng(key), Streams(key)
     enabled = in_order(imperfections)
-    offset = rng.uniform(-_OFFSET, _OFFSET, 3)
-    scene = Scene(scenario, speed, robot, offset, RAMP if "ramps" in enabled else 0.0)
+    scene = _scene(scenario, speed, robot, rng, enabled)
     sensing = Sensing(len(rig.sensors), rig.model, noise, enabled, rng, streams)
     rays = ZoneRays(rig)
     T_link_sensor = np.stack([sensor.T_link_sensor for sensor in rig.sensors])
@@ -98,6 +97,23 @@ def simulate(
             object_poses=scene.object_poses(stamp),
             truth=_truth(report.valid, in_sensor, report.seen.piece, T_base_sensor, bodies),
         )
+
+
+def _key(scenario: Scenario, speed: float, trial: int, seed: int) -> list[int]:
+    """Seed of a recording's generators."""
+    return [seed, trial, round(speed * 1e6), *scenario.name.encode()]
+
+
+def _scene(
+    scenario: Scenario,
+    speed: float,
+    robot: Robot,
+    rng: np.random.Generator,
+    imperfections: Collection[str],
+) -> Scene:
+    """The scene of a recording, whose start is the first that its generator is asked for."""
+    offset = rng.uniform(-_OFFSET, _OFFSET, 3)
+    return Scene(scenario, speed, robot, offset, RAMP if "ramps" in imperfections else 0.0)
 
 
 def _times(
@@ -171,7 +187,9 @@ def write_simulation(
         rig=rig.name,
     )
     count = 0
-    with RecordingWriter(path, robot, rig, provenance) as writer:
+    rng = np.random.default_rng(_key(scenario, speed, trial, seed))
+    meshes = _scene(scenario, speed, robot, rng, imperfections).meshes
+    with RecordingWriter(path, robot, rig, provenance, meshes) as writer:
         for frame in simulate(
             scenario,
             speed=speed,

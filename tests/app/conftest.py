@@ -73,7 +73,7 @@ def shared(folder):
 @pytest.fixture
 def session(client, shared, runs):
     session = Session(client, shared)
-    until(lambda: "Moving" in client.text())
+    until(lambda: "Moving" in client.text() and client.shown("timeline.quantity"))
     yield session
     session.close()
     session.join(10)

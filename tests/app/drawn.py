@@ -1,4 +1,4 @@
-"""Scene nodes of a session, read back from its client."""
+"""What a session shows, read back from its client."""
 
 import numpy as np
 
@@ -11,3 +11,9 @@ def points(client, node):
 
 def arrow_count(client):
     return len(points(client, "flow"))
+
+
+def shown_frame(client) -> int | None:
+    """The frame at which the page's timeline is, None before the first."""
+    shown = client.shown("timeline.frame")
+    return shown[0] if shown else None

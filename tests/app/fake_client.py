@@ -7,6 +7,7 @@ import json
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from html import unescape
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -18,6 +19,8 @@ from viser._messages import (
     RunJavascriptMessage,
     ScenePointerMessage,
 )
+
+from tests.app.page_calls import PageCalls
 
 
 class FakeStorage:
@@ -61,6 +64,9 @@ class FakeClient:
         self.sent: list[Any] = []
         self.legend = ""
         self.link: str | None = None
+        self.system_dark = False
+        self._calls = PageCalls()
+        self._told = 0
         server._connected_clients[self.client_id] = cast(Any, self)
         queue = server._websock_server.queue_message
 
@@ -73,11 +79,14 @@ class FakeClient:
         server._websock_server.queue_message = keep
 
     def _run(self, script: str) -> None:
-        """Carry out the scripts that store a value or set the legend, as a browser would."""
+        """Carry out the scripts that store a value or set the legend, and note calls of ours."""
+        self._calls.note(script)
         if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
             self.local_storage.set_item(*kept.groups())
         if key := re.search(r'"viser-user:(answer-[\w-]+)"', script):
-            if "sessionStorage.getItem" in script:
+            if "prefers-color-scheme" in script:
+                self.local_storage.set_item(key[1], "dark" if self.system_dark else "")
+            elif "sessionStorage.getItem" in script:
                 self.local_storage.set_item(key[1], self.local_storage.get_item("session") or "")
             elif 'query.get("link")' in script and self.link is not None:
                 self.local_storage.set_item(key[1], self.link)
@@ -139,9 +148,40 @@ class FakeClient:
             self.server.get_event_loop(),
         ).result(timeout=10)
 
+    def tell(self, kind: str, data: Any = None) -> None:
+        """Send an event of one of our own elements, as the page's scripts do."""
+        self._told += 1
+        text = json.dumps({"kind": kind, "number": self._told, "data": data})
+        self._send(self.control("Events of the page"), text)
+
+    def choose(self, recording: str) -> None:
+        """Choose a recording from the list."""
+        self.tell("recordings.choose", {"label": recording})
+
+    def recording(self) -> str:
+        """Name that the panel shows as the open recording's."""
+        found = re.search(r'aria-label="Recording: ([^"]*)"', self.text())
+        assert found, "no recording is named"
+        return unescape(found[1])
+
+    def called(self, function: str) -> list[list[Any]]:
+        """Arguments of the calls of a function of our scripts so far."""
+        begin = f"window.tofscope.{function}("
+        sources = [m.source for m in self.sent if isinstance(m, RunJavascriptMessage)]
+        calls = [s[len(begin) : -len(");")] for s in sources if s.startswith(begin)]
+        return [json.loads(f"[{arguments}]") for arguments in calls]
+
+    def shown(self, function: str) -> list[Any] | None:
+        """Arguments of the last call of a function of our scripts, such as "timeline.frame"."""
+        return self._calls.shown(function)
+
     def press(self, label: str) -> None:
         """Press a button."""
         self.change(label, True)
+
+    def press_option(self, label: str, option: str) -> None:
+        """Press a button of a group with a label."""
+        self._send(self.control(label), option)
 
     def press_group(self, option: str) -> None:
         """Press a button of a group without a label."""

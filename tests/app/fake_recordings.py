@@ -38,10 +38,11 @@ class FakeRecording:
         self.truth_frame = None
         self.fixed_frame = robot.base if robot else "world"
         self.warnings = ()
-        self.has_truth = True
+        self.has_truth, self.duplicates = True, 0
+        self.object_meshes: dict[str, Any] = {}
         self.unplaced = np.zeros(frames, dtype=bool)
         self.closed = False
-        rays = (rig.model if rig else SensorModel()).directions
+        rays = (rig.model if rig else SensorModel(rows=20, columns=25)).directions
         sensors = [(s.name, s.ring) for s in rig.sensors] if rig else [("front", "")]
         self.sensors = tuple(
             RecordedSensor(n, ring, n, rays, lambda x: x, (0.02, 4.0)) for n, ring in sensors
@@ -59,17 +60,26 @@ class FakeRecording:
 
     def cloud(self, k, max_range=4.0):
         points = np.vstack([self.static, self.moving + SPEED * PERIOD * k])
-        index = np.zeros(len(points), dtype=np.int64)
         rays = np.stack([sensor.directions for sensor in self.sensors])
+        # Zone by zone, wherever the points are.
+        sensor, zone = np.divmod(np.arange(len(points)), rays[0, ..., 0].size)
+        ranges = np.full(rays.shape[:3], np.nan)
+        ranges.reshape(-1)[: len(points)] = 1.0
         return Cloud(
             points=points,
-            sensor=index,
-            zone=index,
+            sensor=sensor,
+            zone=zone,
             directions=rays / np.linalg.norm(rays, axis=-1, keepdims=True),
-            ranges=np.full(rays.shape[:3], np.nan),
+            ranges=ranges,
             T_fixed_sensor=self.T_fixed_sensor(k),
             stamp=float(self.stamps[k]),
         )
+
+    def latest_messages(self, k):
+        return np.full(len(self.sensors), self.stamps[k])
+
+    def point_truth(self, k, max_range=4.0):
+        return self.pair_truth(k, k).points
 
     def T_fixed_sensor(self, k):  # noqa: N802
         if self._rig:
@@ -78,6 +88,11 @@ class FakeRecording:
         pose = np.eye(4)[None].copy()
         pose[0, 0, 3] = 0.01 * k
         return pose
+
+    def object_poses(self, k):
+        pose = np.eye(4)
+        pose[:3, 3] = np.array([0, 0.8, 0.7]) + SPEED * PERIOD * k
+        return dict.fromkeys(self.object_meshes, pose)
 
     def truth(self, k):
         return SPEED

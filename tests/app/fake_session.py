@@ -5,17 +5,21 @@ from typing import Any
 from app.analysis.estimates import Estimates
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
+from app.browser.page_events import PageEvents
 from app.panels.panel import PanelContext
 from app.scene.legend import Legend
 from app.scene.settings import ViewSettings
+from app.session.choice import Listing
 from app.session.clock import Playback
+from app.session.inspection import Inspected
 from app.session.snapshot import Snapshot, Status
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 
 
 def context(client: Any, post=lambda command: None) -> PanelContext:
-    return PanelContext(client, [fake_opened().entry], Parameters(), ViewSettings(), post)
+    events = PageEvents(client)
+    return PanelContext(client, Parameters(), ViewSettings(), post, events)
 
 
 def status(**changes: Any) -> Status:
@@ -23,9 +27,10 @@ def status(**changes: Any) -> Status:
     fields: dict[str, Any] = {
         "opening": None,
         "opened": None,
+        "listing": Listing((fake_opened().entry,)),
         "parameters": Parameters(),
         "parameters_revision": 0,
-        "refusals": {},
+        "corrections": {},
         "preset_use": None,
         "tasks": (),
         "outbox": (),
@@ -48,15 +53,20 @@ def snapshot(**changes: Any) -> Snapshot:
         "comparison": None,
         "settings": ViewSettings(),
         "legend": Legend(),
+        "scale_bar": None,
         "other": None,
         "picked": None,
-        "picked_in_scene": 0,
         "playing": False,
         "playback": Playback(0, len(opened.recording) - 1),
+        "marks": (),
+        "edited_mark": 0,
         "seeking": False,
-        "time_seek": None,
+        "plotted_pair": None,
         "survey": None,
         "survey_revision": 0,
+        "other_survey": None,
+        "other_survey_revision": 0,
+        "inspected": Inspected(),
     }
     if "pair" not in changes:
         fields["pair"] = Estimates().estimated(opened, frame, parameters)

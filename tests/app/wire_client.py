@@ -1,5 +1,6 @@
 """A client that speaks viser's protocol over a websocket, and draws nothing."""
 
+import json
 import threading
 import time
 from collections.abc import Callable
@@ -13,6 +14,8 @@ from viser import _messages as messages
 from viser.infra import Message
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
+
+from tests.app.page_calls import PageCalls
 
 
 def camera_at(position: tuple[float, float, float]) -> messages.ViewerCameraMessage:
@@ -49,12 +52,14 @@ class WireClient:
         listen: Callable[[float, dict[str, Any]], None] = lambda *_: None,
         storage: dict[str, str] | None = None,
     ):
-        self.received = 0
+        self.received = self._told = 0
         self.storage = {} if storage is None else storage
         self._listen = listen
         self._values: dict[str, Any] = {}
         self._uuids: dict[str, str] = {}
         self._commands: dict[str, str] = {}
+        self._calls = PageCalls()
+        self._told = 0
         self._socket = connect(
             address.replace("http", "ws", 1),
             subprotocols=[f"viser-v{viser.__version__}"],  # type: ignore[list-item]
@@ -88,6 +93,16 @@ class WireClient:
         uuid = self._uuids[label]
         self._values[uuid] = value
         self.send(messages.GuiUpdateMessage(uuid, {"value": value}))
+
+    def tell(self, kind: str, data: Any = None) -> None:
+        """Send an event of one of our own elements, as the page's scripts do."""
+        self._told += 1
+        text = json.dumps({"kind": kind, "number": self._told, "data": data})
+        self.change("Events of the page", text)
+
+    def shown(self, function: str) -> list[Any] | None:
+        """Arguments of the last call of a function of our scripts, such as "timeline.frame"."""
+        return self._calls.shown(function)
 
     def trigger(self, label: str) -> None:
         """Send the choice of a command, as its key does."""
@@ -126,6 +141,8 @@ class WireClient:
                 self.storage[message["key"]] = message["value"]
             case "LocalStorageRemoveItemMessage":
                 self.storage.pop(message["key"], None)
+            case "RunJavascriptMessage":
+                self._calls.note(message["source"])
             case "RegisterCommandMessage":
                 self._commands[message["props"]["label"]] = message["uuid"]
             case "GuiUpdateMessage" if "value" in message["updates"]:

@@ -14,7 +14,7 @@ from app.server.session import Shared
 from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import open_recording, sample_paths
-from tests.browser.tab import Tab
+from tests.browser.tab import SIZE, WIDE, Tab
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 _FLAGS = [
@@ -85,7 +85,7 @@ def _own_configuration(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(scope="package")
 def window(chromium: Browser) -> BrowserContext:
     context = chromium.new_context(accept_downloads=True)
-    context.set_default_timeout(10_000)
+    context.set_default_timeout(30_000)
     context.add_init_script(NO_DRAWING)
     return context
 
@@ -100,6 +100,15 @@ def tab(first_tab: Tab) -> Tab:
     """A new session, in a page that is loaded once since that takes seconds."""
     first_tab.begin_again()
     return first_tab
+
+
+@pytest.fixture
+def wide_tab(first_tab: Tab) -> Iterator[Tab]:
+    """The same in a window that is wide enough for the panel on the left to be open."""
+    first_tab.page.set_viewport_size(WIDE)
+    first_tab.begin_again()
+    yield first_tab
+    first_tab.page.set_viewport_size(SIZE)
 
 
 @pytest.fixture

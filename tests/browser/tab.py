@@ -1,5 +1,6 @@
 """A page of the app, and what a person would do with it."""
 
+import re
 import time
 from collections.abc import Callable
 from typing import Any
@@ -30,10 +31,11 @@ _FORGET = """() => {
 }"""
 _BEGUN = "sessionStorage.getItem('tofscope-session') !== null"
 SIZE: ViewportSize = {"width": 900, "height": 700}
+WIDE: ViewportSize = {"width": 1280, "height": 720}
 
 
-def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> None:
-    """Wait until something holds in a page."""
+def until(page: Page, condition: Callable[[], Any], timeout: float = 30.0) -> None:
+    """Wait until something holds in a page, which may take a busy machine some seconds."""
     end = time.monotonic() + timeout
     while not condition():
         assert time.monotonic() < end, "it did not come true in time"
@@ -43,11 +45,11 @@ def until(page: Page, condition: Callable[[], Any], timeout: float = 10.0) -> No
 class Tab:
     """One browser tab that shows the app."""
 
-    def __init__(self, context: BrowserContext, address: str, size: ViewportSize = SIZE) -> None:
+    def __init__(self, context: BrowserContext, address: str) -> None:
         self.page = context.new_page()
-        self.page.set_viewport_size(size)
+        self.page.set_viewport_size(SIZE)
         self.page.goto(address)
-        self.page.wait_for_selector("canvas[data-engine]")
+        self.page.wait_for_selector("canvas[data-engine]", state="attached")
         self._wait_for_the_first_frame()
 
     def begin_again(self) -> None:
@@ -59,7 +61,9 @@ class Tab:
         self._wait_for_the_first_frame()
 
     def _wait_for_the_first_frame(self) -> None:
-        self.until(lambda: self.has_text("Moving") and len(self.arrows()) > 0)
+        # The first page of all loads what the others find loaded.
+        until(self.page, lambda: self.has_text("Moving") and len(self.arrows()) > 0, timeout=30.0)
+        self.page.wait_for_selector("#tofscope-opening", state="hidden")
 
     def until(self, condition: Callable[[], Any]) -> None:
         until(self.page, condition)
@@ -99,17 +103,37 @@ class Tab:
         text = self.page.get_by_text(label, exact=True).first
         return text.locator("xpath=ancestor::*[.//input or .//*[@role='slider']][1]")
 
+    def show(self, name: str) -> None:
+        """Bring a tab of the panels to the front."""
+        self.page.get_by_role("tab", name=name, exact=True).click()
+
+    def slider(self, label: str) -> Locator:
+        """A slider of the panel, or the timeline, whose label is Frame."""
+        if label == "Frame":
+            return self.page.get_by_role("slider", name=label, exact=True)
+        return self.row(label).locator("[role=slider]")
+
     def set_slider(self, label: str, key: str, times: int = 1) -> None:
         """Move a slider with the keyboard."""
-        slider = self.row(label).locator("[role=slider]")
+        slider = self.slider(label)
         slider.focus()
         for _ in range(times):
             slider.press(key)
 
     def value(self, label: str) -> float:
-        return float(
-            self.row(label).locator("[role=slider]").get_attribute("aria-valuenow") or "nan"
-        )
+        return float(self.slider(label).get_attribute("aria-valuenow") or "nan")
+
+    def last_frame(self) -> int:
+        """The last frame of the recording, by the timeline."""
+        return int(self.slider("Frame").get_attribute("aria-valuemax") or 0)
+
+    def drawn_frame(self) -> int:
+        """The frame that the session has drawn last; a person may be ahead of it."""
+        return int(self.page.locator("#tofscope-timeline").get_attribute("data-frame") or -1)
+
+    def is_at(self, frame: int) -> bool:
+        """Whether the timeline is at a frame, and the session has drawn it."""
+        return self.value("Frame") == self.drawn_frame() == frame
 
     def open(self, scenario: str) -> None:
         """Choose a sample and wait until its first frame is shown."""
@@ -118,11 +142,22 @@ class Tab:
         self.until(self._at_rest)
 
     def _at_rest(self) -> bool:
-        """Whether slider and text say the same frame, and go on saying it."""
+        """Whether timeline and session are at the same frame, and stay there."""
         frame = self.value("Frame")
         self.page.wait_for_timeout(300)
-        return self.value("Frame") == frame and self.has_text(f"Frame {frame:.0f} of")
+        return self.is_at(int(frame))
 
     def choose(self, recording: str) -> None:
-        self.row("Recording").locator("input").first.click()
-        self.page.get_by_role("option", name=recording).click()
+        """Choose a recording from the list by a part of its name."""
+        self.page.get_by_role("button", name=re.compile("^Recording: ")).click()
+        self.listed(recording).click()
+
+    def listed(self, recording: str) -> Locator:
+        """Rows of the list whose text holds this."""
+        return self.page.locator("#tofscope-recordings [role=option]").filter(has_text=recording)
+
+    def choose_option(self, label: str, option: str) -> None:
+        """Choose an option of a dropdown of the panel."""
+        self.row(label).locator("input").first.click()
+        # Native lists of the timeline have options, too, which are in no listbox.
+        self.page.get_by_role("listbox").get_by_role("option", name=option).click()

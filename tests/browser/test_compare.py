@@ -3,7 +3,7 @@ from tests.browser.tab import Tab
 
 def test_a_key_switches_between_a_and_b_and_both_are_drawn_in_two_colours(tab: Tab):
     count = len(tab.arrows())
-    tab.page.get_by_text("Compare", exact=True).click()
+    tab.show("Compare")
     tab.page.get_by_role("button", name="Copy A to B").click()
     tab.until(lambda: tab.has_text("Switch to A") and tab.has_text("Parameters of B"))
     tab.set_slider("δ", "End")

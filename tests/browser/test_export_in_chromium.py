@@ -19,7 +19,7 @@ from app.scene.settings import ViewSettings
 from recordings import sample_paths
 from tests.app import waiting
 from tests.browser.conftest import NO_DRAWING
-from tests.browser.tab import Tab, until
+from tests.browser.tab import until
 from tests.conftest import REPOSITORY
 from tests.recordings.room import write_room
 
@@ -103,10 +103,13 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
     assert {url.partition(":")[0] for url in asked} <= {"file", "data", "blob"}
 
 
-def test_pictures_are_made_without_a_browser_open(tmp_path: Path, export: Export):
+def test_pictures_are_made_without_a_browser_open(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, export: Export
+):
     room, place = write_room(tmp_path / "room.mcap").path, tmp_path / "a.png"
     flags = ["--frame=11", "--size=400x240", "--n=6"]
-    said = export(room, *flags, "--screenshot", place)
+    bare = ["--no-legend", "--no-corner-line", "--no-scale-bar"]
+    said = export(room, *flags, *bare, "--screenshot", place)
     assert said == f"{place}: frame 11 of room, 400 x 240.\n"
     with Image.open(place) as picture:
         assert (picture.format, picture.mode, picture.size) == ("PNG", "RGB", (400, 240))
@@ -122,33 +125,49 @@ def test_pictures_are_made_without_a_browser_open(tmp_path: Path, export: Export
     assert as_in_the_legend.sum() > 20, "there is no flow, or of another colour than its legend's"
     assert (blue > red + 60).sum() > 30, "there is no target"
 
-    # The same again, on nothing and with another view beside it.
-    flags += ["--transparent", "--view", "3d", "top"]
-    said = export(room, *flags, "--screenshot", place)
+    # On nothing, with another view beside it, where the path of temporary files is long.
+    long = tmp_path / (150 * "a")
+    long.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(long))
+    said = export(room, *flags, "--transparent", "--view", "3d", "top", "--screenshot", place)
     assert said.endswith("800 x 240.\n")
+    assert not list(long.iterdir())
     with Image.open(place) as picture:
         assert (picture.mode, picture.size) == ("RGBA", (800, 240))
-        left, right = picture.crop((0, 0, 400, 240)), picture.crop((400, 0, 800, 240))
-    ground = Image.new("RGBA", left.size, "white")
-    ground.alpha_composite(left)
-    np.testing.assert_array_equal(np.asarray(ground.convert("RGB")), pixels)
+        left, right = picture.crop((0, 0, 390, 150)), picture.crop((410, 0, 800, 150))
+        between = np.asarray(picture.crop((398, 0, 402, 150)))
+    assert (between[..., 3] == 0).all(), "there is no gap"
     for view in (left, right):
         assert 0.005 < (np.asarray(view)[..., 3] == 255).mean() < 0.7
     assert left.tobytes() != right.tobytes()
 
 
-def test_the_app_makes_an_offline_page_while_the_session_goes_on(tab: Tab):
-    frame = tab.value("Frame")
-    with tab.page.expect_download() as download:
-        tab.page.get_by_role("button", name="Save offline page").click()
-        tab.set_slider("Frame", "ArrowLeft", times=2)
-    assert tab.value("Frame") == frame - 2
-    name = download.value.suggested_filename
-    assert name.endswith(".html")
-    tab.until(lambda: tab.has_text(f"{name}, "))
-    page = Path(download.value.path()).read_text()
-    assert f"<title>{name.removesuffix('.html')} (simulated)</title>" in page
-    assert "__VISER_EMBED_DATA__" in page
+def test_figures_videos_and_images_have_their_size_and_say_what_they_show(
+    tmp_path: Path, export: Export
+):
+    room, place = write_room(tmp_path / "room.mcap").path, tmp_path / "a.png"
+    flags = ["--frame=11", "--n=6", "--size-mm=88x60", "--dpi=150", "--view", "3d", "top"]
+    said = export(room, *flags, "--screenshot", place)
+    assert said == f"{place}: frame 11 of room, 88 mm x 60 mm, 520 x 354 pixels.\n"
+    with Image.open(place) as picture:
+        assert picture.size == (520, 354)
+        assert round(picture.info["dpi"][0]) == 150
+        pixels = np.asarray(picture).astype(int)
+    flow = ViewSettings().palette.flow
+    assert (np.abs(pixels[:250] - flow) <= 12).all(axis=2).sum() > 20, "there is no flow"
+    assert (pixels[-60:] < 100).all(axis=2).sum() > 100, "there is no corner line"
+
+    flags = ["--frames=10:12", "--n=6", "--size=320x240", "--view", "3d", "top"]
+    said = export(room, *flags, "--speed=0.5", "--video", tmp_path / "a.gif")
+    assert said.startswith(f"{tmp_path / 'a.gif'}: frames 10 to 12 of room, ")
+    with Image.open(tmp_path / "a.gif") as picture:
+        assert (picture.size, getattr(picture, "n_frames", 1)) == ((320, 240), 3)
+    said = export(room, *flags, "--images", tmp_path / "images")
+    assert said.endswith("frames 10 to 12 of room, each 320 x 240.\n")
+    names = sorted(path.name for path in (tmp_path / "images").iterdir())
+    assert names == [f"frame_{k:06d}.png" for k in (10, 11, 12)]
+    with Image.open(tmp_path / "images" / names[1]) as picture:
+        assert picture.info["Frame"].startswith("11 of ")
 
 
 def drawing_in(folder: Path) -> list[str]:
@@ -168,38 +187,32 @@ def scratch() -> Iterator[Path]:
         yield Path(folder)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_an_export_that_is_ended_leaves_no_chromium_and_no_files(
-    number: int, tmp_path: Path, scratch: Path
-):
+def test_an_export_that_is_ended_leaves_no_chromium_and_no_files(tmp_path: Path, scratch: Path):
     out = tmp_path / "out"
     out.mkdir()
     room = write_room(tmp_path / "room.mcap").path
     asked = ["export", str(room), "--screenshot", str(out / "a.png")]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "app", *asked],
-        env=os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(scratch)},
-        stderr=subprocess.PIPE,
-    )
-    waiting.until(lambda: len(drawing_in(scratch)) > 2, 30)  # it, and processes of its own
-    process.send_signal(number)
-    _, said = process.communicate(timeout=20)
-    assert said == b""
-    assert process.returncode == (-number if number == signal.SIGKILL else 130)
-    waiting.until(lambda: not drawing_in(scratch))
-    if number == signal.SIGKILL:
-        with scratch_folder(scratch):
-            pass  # the next command removes what a killed one leaves
-    assert not list(scratch.iterdir())
+    running: dict[signal.Signals, tuple[Path, subprocess.Popen[bytes]]] = {}
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        folder = scratch / str(int(number))
+        folder.mkdir()
+        process = subprocess.Popen(
+            [sys.executable, "-m", "app", *asked],
+            env=os.environ | {"PYTHONPATH": str(REPOSITORY), "TMPDIR": str(folder)},
+            stderr=subprocess.PIPE,
+        )
+        running[number] = folder, process
+    for number, (folder, process) in running.items():
+        # It, and processes of its own.
+        waiting.until(lambda folder=folder: len(drawing_in(folder)) > 2, 60)
+        process.send_signal(number)
+    for number, (folder, process) in running.items():
+        _, said = process.communicate(timeout=20)
+        assert said == b""
+        assert process.returncode == (-number if number == signal.SIGKILL else 130)
+        waiting.until(lambda folder=folder: not drawing_in(folder))
+        if number == signal.SIGKILL:
+            with scratch_folder(folder):
+                pass  # the next command removes what a killed one leaves
+        assert not list(folder.iterdir())
     assert not list(out.iterdir())
-
-
-def test_a_long_path_of_temporary_files_does_not_matter(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, export: Export
-):
-    room = write_room(tmp_path / "room.mcap").path
-    long = tmp_path / (150 * "a")
-    long.mkdir()
-    monkeypatch.setattr("tempfile.tempdir", str(long))
-    export(room, "--screenshot", tmp_path / "a.png", "--size", "64x64", "--frame", 11)
-    assert not list(long.iterdir())

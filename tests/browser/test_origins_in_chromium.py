@@ -31,11 +31,11 @@ def own_address() -> str:
 
 
 def test_the_page_works_by_the_machines_address_and_foreign_pages_cannot_connect(
-    context: BrowserContext, recordings_folder: Path
+    context: BrowserContext, recordings_folder: Path, estimates: Estimates
 ):
     address = own_address()
     library = Library([recordings_folder], open_recording)
-    server = Server(Shared(library, Estimates(), Reloads(), Parameters()), "0.0.0.0", 0)
+    server = Server(Shared(library, estimates, Reloads(), Parameters()), "0.0.0.0", 0)
     try:
         exposed = f"{address}:{server.port}"
         tab = Tab(context, f"http://{exposed}")  # waits for arrows

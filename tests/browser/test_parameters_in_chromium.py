@@ -4,8 +4,14 @@ import json
 from pathlib import Path
 
 import numpy as np
+from playwright.sync_api import Locator
 
 from tests.browser.tab import Tab
+
+
+def field(tab: Tab, label: str) -> Locator:
+    """The field for the number of a control."""
+    return tab.row(label).locator("input:not([type=hidden])")
 
 
 def test_a_drag_is_undone_and_redone_with_keys(tab: Tab):
@@ -22,20 +28,19 @@ def test_a_drag_is_undone_and_redone_with_keys(tab: Tab):
 def test_a_preset_survives_a_reload_and_a_file_goes_out_and_in(tab: Tab, tmp_path: Path):
     tab.set_slider("δ", "End")
     tab.until(lambda: len(tab.arrows()) == 0)
-    tab.page.get_by_text("Presets", exact=True).click()
+    tab.show("More")
     tab.row("Name").locator("input").fill("nothing moves")
     tab.page.wait_for_timeout(100)
     tab.page.get_by_role("button", name="Save", exact=True).click()
     tab.until((tmp_path / "tofscope" / "presets" / "nothing moves.json").exists)
     with tab.page.expect_download() as download:
-        tab.page.get_by_role("button", name="Save as a file").click()
+        tab.page.get_by_role("button", name="Save parameters as a file").click()
     content = json.loads(Path(download.value.path()).read_text())
     assert content["delta"] == 0.5
 
     tab.page.get_by_role("button", name="δ", exact=True).click()
     tab.until(lambda: tab.value("δ") == 0.04)
     tab.page.reload()
-    tab.page.get_by_text("Presets", exact=True).click()
     tab.until(lambda: tab.value("δ") == 0.04)
     tab.page.get_by_role("button", name="Load", exact=True).click()
     tab.until(lambda: tab.value("δ") == 0.5)
@@ -46,49 +51,62 @@ def test_a_preset_survives_a_reload_and_a_file_goes_out_and_in(tab: Tab, tmp_pat
     tab.until(lambda: tab.value("δ") == 0.1 and tab.value("n") == 5)
 
 
-def test_more_than_a_slider_offers_can_be_typed(tab: Tab):
-    number = tab.row("n").locator("input:not([type=hidden])")
-    number.fill("25")
-    tab.until(lambda: tab.has_text("is before the start"))
-    tab.until(lambda: tab.row("n").locator("[role=slider]").get_attribute("aria-valuemax") == "25")
-    number.blur()
-    tab.page.wait_for_timeout(300)
-    assert tab.value("n") == 25
-    assert number.input_value() == "25"
-
-
-def test_a_number_out_of_range_is_refused_in_words_and_the_old_one_comes_back(tab: Tab):
-    number = tab.row("n").locator("input:not([type=hidden])")
-    refusal = tab.page.get_by_text("must be")
+def test_a_number_beyond_its_range_becomes_the_nearest_in_it_and_the_page_says_so(tab: Tab):
+    number, said = field(tab, "n"), tab.page.get_by_text("became")
     number.fill("5000")
-    tab.until(refusal.is_visible)
+    tab.until(said.is_visible)
+    assert said.inner_text() == "n goes from 1 to 20 frames: 5000 became 20."
     number.blur()
-    tab.until(lambda: tab.value("n") == 8 and number.input_value() == "8")
+    tab.until(lambda: tab.value("n") == 20 and number.input_value() == "20")
+    tab.until(lambda: tab.has_text("is before the start") or tab.has_text("1.333 s"))
     tab.page.wait_for_timeout(300)
-    assert "5000" in refusal.inner_text()
-    number.fill("20")
-    tab.until(lambda: not refusal.is_visible())
+    assert said.is_visible()
+    number.fill("5")
+    tab.until(lambda: not said.is_visible())
     number.blur()
     tab.page.wait_for_timeout(300)
-    assert tab.value("n") == 20
+    assert tab.value("n") == 5
+
+    number = field(tab, "γ")
+    number.fill("9")
+    tab.until(said.is_visible)
+    number.press("Enter")
+    tab.until(lambda: len(tab.arrows()) == 0)
+    tab.page.keyboard.press("Control+z")
+    tab.until(lambda: tab.value("γ") == 0.7 and not said.is_visible())
 
 
-def test_a_folded_number_out_of_range_is_refused_also_after_it_is_left(tab: Tab):
-    tab.page.get_by_text("More parameters", exact=True).click()
-    number = tab.row("min cluster size").locator("input:not([type=hidden])")
-    refusal = tab.page.get_by_text("must be")
+def test_a_number_elsewhere_is_corrected_also_after_it_is_left(tab: Tab):
+    tab.show("More")
+    number, said = field(tab, "min cluster size"), tab.page.get_by_text("became")
     number.fill("1")
-    tab.until(refusal.is_visible)
+    tab.until(said.is_visible)
     number.blur()
-    tab.page.wait_for_timeout(500)
-    assert "min_cluster_size must be between 2" in refusal.inner_text()
-    assert number.input_value() == "1"
-    tab.page.get_by_role("button", name="Reset these").click()
-    tab.until(lambda: number.input_value() == "20" and not refusal.is_visible())
+    tab.until(lambda: number.input_value() == "2")
+    tab.page.wait_for_timeout(300)
+    assert said.inner_text() == "min cluster size goes from 2 to 100000 points: 1 became 2."
+    tab.page.get_by_role("button", name="others", exact=True).click()
+    tab.until(lambda: number.input_value() == "20" and not said.is_visible())
+
+
+def test_a_value_from_elsewhere_widens_its_slider_only_for_as_long_as_it_needs(
+    tab: Tab, tmp_path: Path
+):
+    tab.show("More")
+    file = tmp_path / "far.json"
+    file.write_text(json.dumps({"n_min": 900}))
+    tab.page.set_input_files("input[type=file]", file)
+
+    def largest() -> str | None:
+        return tab.slider("N_min").get_attribute("aria-valuemax")
+
+    tab.until(lambda: tab.value("N_min") == 900 and largest() == "900")
+    tab.page.get_by_role("button", name="undo", exact=True).click()
+    tab.until(lambda: tab.value("N_min") == 60 and largest() == "200")
 
 
 def test_a_number_that_is_left_empty_comes_back(tab: Tab):
-    number = tab.row("N_min").locator("input:not([type=hidden])")
+    number = field(tab, "N_min")
     number.focus()
     number.fill("")
     number.blur()

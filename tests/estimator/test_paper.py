@@ -114,7 +114,7 @@ def test_the_story_of_rounds():
     assert result.velocity == pytest.approx(np.tile([-0.09 / INTERVAL, 0, 0], (40, 1)), abs=1e-3)
     assert (result.fitness, result.mean_displacement) == (second.fitness, second.mean_displacement)
     assert result.reason == (
-        "Moving: fitness 1.00 above γ 0.7, mean displacement 90 mm not below δ 40 mm."
+        "Moving: fitness 1.00 above γ 0.7, mean displacement 0.090 m not below δ 0.04 m."
     )
 
 

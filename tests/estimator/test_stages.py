@@ -150,6 +150,18 @@ def test_an_estimate_of_plain_clouds_remembers_nothing(clusterings):
     assert len(clusterings) == 2
 
 
+def test_it_is_known_what_was_asked_for_again():
+    stages = Stages()
+    for key, reused in (("a", 0), ("b", 0), ("a", 1), ("a", 2), ("c", 2)):
+        stages.get(key, lambda: 1.0)
+        assert stages.reused == reused
+    window = pair_of(0)
+    estimate(window, Parameters())
+    first = window.stages.reused
+    estimate(window, Parameters(delta=0.1))
+    assert window.stages.reused > first
+
+
 def test_what_is_remembered_of_a_pair_is_bounded():
     stages, made = Stages(), []
 

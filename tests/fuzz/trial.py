@@ -35,7 +35,7 @@ class Outcome:
         told: sentences about it where it was opened.
         faults: what must not happen, one line each.
         seconds: of CPU time.
-        memory: largest of the process, bytes.
+        memory: that the process took more, bytes.
     """
 
     refusal: str
@@ -54,15 +54,16 @@ def tried(path: Path) -> Outcome:
     faults: list[str] = []
     sentences: list[str] = []
     forget_peak()
+    before = peak_bytes()
     began = time.process_time()
     refusal = ""
     with _told(faults), _interrupted(faults):
         refusal = _refused(lambda: _opened(path, sentences), faults)
         _refused(lambda: _informed(path), faults)
     seconds = time.process_time() - began
-    if (peak := peak_bytes()) > MEMORY_BYTES:
-        faults.append(f"the process has {peak / 1e6:.0f} MB")
-    return Outcome(refusal, tuple(sentences), tuple(faults), seconds, peak)
+    if (taken := peak_bytes() - before) > MEMORY_BYTES:
+        faults.append(f"it took {taken / 1e6:.0f} MB")
+    return Outcome(refusal, tuple(sentences), tuple(faults), seconds, taken)
 
 
 def _opened(path: Path, told: list[str]) -> None:

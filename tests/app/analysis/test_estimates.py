@@ -56,8 +56,10 @@ def test_the_same_question_is_answered_from_memory(counted):
     first = estimates.estimated(opened, 20, Parameters())
     assert estimates.estimated(opened, 20, Parameters()) is first
     assert len(counted) == 1
-    estimates.estimated(opened, 20, Parameters(delta=0.05))
+    assert not first.reused
+    assert estimates.estimated(opened, 20, Parameters(delta=0.05)).reused
     assert len(counted) == 2
+    assert not estimates.estimated(opened, 21, Parameters(delta=0.05)).reused
 
 
 def test_clouds_are_shared_by_pairs_and_by_parameters():

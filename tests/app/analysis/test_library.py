@@ -130,3 +130,24 @@ def test_a_bad_file_raises_and_holds_nothing(tmp_path):
 
 def test_an_entry_is_its_label_and_path(tmp_path):
     assert Entry("a", tmp_path) == Entry("a", tmp_path)
+
+
+def test_folders_below_are_listed_by_their_names_and_hidden_ones_are_not(tmp_path):
+    folder = touched(tmp_path / "f", "z.mcap")
+    touched(folder / "day 1" / "morning", "a.mcap")
+    touched(folder / "day 1", "a.mcap")
+    touched(folder / ".trash", "old.mcap")
+    labels = [entry.label for entry in Library([folder], Opener()).listing()]
+    assert labels == ["z", "day 1/a", "day 1/morning/a"]
+
+
+def test_links_that_leave_the_folder_are_not_followed(tmp_path):
+    outside = touched(tmp_path / "outside", "secret.mcap")
+    folder = touched(tmp_path / "f", "a.mcap")
+    (folder / "folder").symlink_to(outside)
+    (folder / "circle").symlink_to(folder)
+    (folder / "file.mcap").symlink_to(outside / "secret.mcap")
+    (folder / "b.mcap").symlink_to(folder / "a.mcap")
+    assert [entry.label for entry in Library([folder], Opener()).listing()] == ["a", "b"]
+    # What a person names is opened wherever it lies.
+    assert [e.label for e in Library([folder / "file.mcap"], Opener()).listing()] == ["file"]

@@ -1,10 +1,9 @@
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
-from app.analysis.selection import Selection, cluster_at, cluster_of, points_of
+from app.analysis.selection import Selection, cluster_of
 from estimator import Label, Parameters, SceneFlow
 from tests.app.fake_recordings import fake_opened
 
@@ -39,6 +38,20 @@ def test_a_picked_cluster_is_followed_by_its_points_and_not_by_its_number(pair):
     assert selection.follow(renumbered(pair, order)) == order.index(index)
 
 
+def test_the_cluster_of_a_link_is_picked_in_the_first_pair_with_a_flow(pair):
+    selection, index = Selection(), moving(pair)
+    selection.await_cluster(index)
+    assert selection.follow(replace(pair, flow=None)) is None
+    assert selection.follow(pair) == index
+    selection.pick(pair, None)
+    assert selection.follow(pair) is None
+    selection.await_cluster(999)
+    assert selection.follow(pair) is None
+    selection.await_cluster(index)
+    selection.drop()
+    assert selection.follow(pair) is None
+
+
 def test_a_cluster_that_moves_is_followed_from_frame_to_frame():
     estimates, opened, selection = Estimates(), fake_opened(), Selection()
     pair = estimates.estimated(opened, 10, Parameters())
@@ -66,19 +79,3 @@ def test_picking_none_or_a_number_that_is_not_there_picks_none(pair):
         selection.pick(pair, wrong)
         assert selection.follow(pair) is None
         assert cluster_of(pair, wrong) is None
-
-
-def test_a_ray_picks_the_cluster_it_passes(pair):
-    cluster = pair.flow.clusters[moving(pair)]
-    origin = np.array([0.3, -3.0, 1.0])
-    for point in points_of(pair, cluster)[::30]:
-        assert cluster_at(pair, origin, 7 * (point - origin)) == cluster.index
-
-
-def test_a_ray_that_passes_all_clusters_by_or_leaves_them_behind_picks_none(pair):
-    point = points_of(pair, pair.flow.clusters[0])[0]
-    origin = np.array([0.3, -3.0, 1.0])
-    assert cluster_at(pair, origin, point - origin) == 0
-    assert cluster_at(pair, origin, origin - point) is None
-    assert cluster_at(pair, origin, np.array([0.0, 0.0, 1.0])) is None
-    assert cluster_at(replace(pair, flow=None), origin, point - origin) is None

@@ -5,10 +5,11 @@ import pytest
 
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
-from app.analysis.survey import Survey, coarse_to_fine
+from app.analysis.quantities import QUANTITIES
+from app.analysis.survey import Survey, coarse_to_fine, valid_share
 from estimator import Parameters
 from recordings import PairTruth, RecordingError, open_recording
-from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
+from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
 from tests.recordings.room import write_room
 
 
@@ -48,6 +49,40 @@ def test_the_summary_is_what_evaluate_says_to_the_last_bit(parameters, tmp_path)
         assert survey.summary().points_with_flow > 100
 
 
+def test_the_share_of_zones_with_a_range_is_known_of_both_frames():
+    fake = fake_recording()
+    clouds = fake.cloud
+
+    def cloud(k, far=4.0):
+        seen = clouds(k, far)
+        ranges = np.full(seen.ranges.shape, np.nan)
+        ranges.reshape(-1)[: k % 8 * ranges.size // 8] = 1.0
+        return replace(seen, ranges=ranges)
+
+    fake.cloud = cloud
+    survey = Survey(fake, Parameters())
+    assert np.isnan(survey.valid).all()
+    survey.put(21, Estimates().estimated(fake_opened(fake), 21, Parameters()))
+    assert np.flatnonzero(np.isfinite(survey.valid)).tolist() == [13, 21]
+    np.testing.assert_allclose(survey.valid[[13, 21]], 5 / 8, atol=0.002)
+    np.testing.assert_allclose(
+        filled(fake_opened(fake), Parameters()).valid, np.arange(FRAMES) % 8 / 8, atol=0.002
+    )
+
+
+def test_zones_that_the_sensor_does_not_have_are_not_counted():
+    seen = fake_recording().cloud(3)
+    directions = seen.directions.copy()
+    directions[:, :, 4:] = np.nan
+    ranges = np.where(np.isfinite(directions[..., 0]), 1.0, np.nan)
+    ranges[:, 0] = np.nan
+    rows = ranges.shape[1]
+    share = valid_share(replace(seen, directions=directions, ranges=ranges))
+    assert share == pytest.approx((rows - 1) / rows)
+    nothing = replace(seen, directions=np.nan * directions, ranges=np.nan * ranges)
+    assert np.isnan(valid_share(nothing))
+
+
 def test_no_flow_leaves_gaps_and_no_coverage():
     survey = filled(fake_opened(), Parameters(delta=0.5))
     assert (survey.moving[8:] == 0).all()
@@ -57,14 +92,33 @@ def test_no_flow_leaves_gaps_and_no_coverage():
     assert (survey.metrics["coverage"][8:] == 0).all()
 
 
-def test_pairs_that_do_not_count_have_no_errors_but_a_flow():
+def test_pairs_that_do_not_count_have_the_errors_of_their_own_and_are_not_in_the_means():
     fake = fake_recording()
     fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
-    survey = filled(fake_opened(fake), Parameters())
-    assert np.isnan(survey.metrics["angle_deg"][:28]).all()
-    assert np.isfinite(survey.metrics["angle_deg"][28:]).all()
+    opened, estimates = fake_opened(fake), Estimates()
+    survey = filled(opened, Parameters(), estimates)
+    assert not survey.counts[:28].any()
+    assert survey.counts[28:].all()
+    # As Status says for the frame: the object moves during the pair.
+    errors = estimates.estimated(opened, 15, Parameters()).errors
+    assert errors is not None
+    assert survey.metrics["angle_deg"][15] == errors.angle_deg
+    assert survey.metrics["velocity_error"][15] == errors.velocity_error
     assert np.isfinite(survey.speed[8:]).all()
+    assert survey.summary() == evaluate(fake, Parameters())
     assert survey.summary().pairs == FRAMES - 28
+    assert survey.pairs == FRAMES - 8
+
+
+def test_every_quantity_has_a_value_of_every_pair():
+    opened = fake_opened()
+    survey = filled(opened, Parameters())
+    values = {name: q.values(opened.recording, survey)[20] for name, q in QUANTITIES.items()}
+    assert values["points"] == 500 == values["moving"] + values["stationary"] + values["unassigned"]
+    assert values["clusters"] == 5
+    assert values["interval"] == pytest.approx(8 * PERIOD)
+    assert values["time"] == pytest.approx(20 * PERIOD)
+    assert np.isfinite(list(values.values())).all()
 
 
 def test_where_nothing_ever_moves_the_false_flow_is_known_alone():

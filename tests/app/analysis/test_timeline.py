@@ -1,5 +1,3 @@
-import itertools
-import re
 import threading
 from dataclasses import replace
 from typing import Any
@@ -12,15 +10,8 @@ from app.analysis.library import Opened
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
 from app.analysis.timeline import Timeline, gaps, neighbour, stretches
-from app.panels.timeline_strip import strip
-from app.scene.colours import css
-from app.scene.palettes import PALETTES, palette
-from app.scene.settings import ViewSettings
-from app.session.clock import Playback
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
-
-COLOURS = ViewSettings().palette
 
 
 def still_and_moving() -> Any:
@@ -117,35 +108,3 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     assert surveys.known(opened, Parameters()) is None
     live._last = None if live._last is None else (*live._last[:1], 0.0, seen)
     assert live.of(opened, Parameters()) == seen
-
-
-def test_the_strip_names_what_it_shows_and_nothing_else():
-    drawn = strip(Timeline(40, (7,), (), ((5, 9),)), Playback(0, 39), COLOURS, "")
-    assert "moving" in drawn
-    assert "gap" in drawn
-    assert "empty" not in drawn
-    assert "empty" in strip(Timeline(40, (), ((0, 1),), ()), Playback(0, 39), COLOURS, "")
-
-
-def test_the_strip_has_the_colours_of_the_scene():
-    timeline = Timeline(40, (7,), ((0, 1),), ((5, 9),))
-    for name, dark in itertools.product(PALETTES, (False, True)):
-        colours = palette(name, dark)
-        drawn = strip(timeline, Playback(0, 39), colours, "")
-        used = {colours.flow, colours.unassigned, colours.category(4)}
-        assert set(re.findall(r"#[0-9a-f]{6}", drawn)) == {css(colour) for colour in used}
-
-
-def test_gaps_hide_nothing_of_what_moves():
-    drawn = strip(Timeline(40, (7, 8), (), ((5, 9),)), Playback(0, 39), COLOURS, "")
-    bar = r'y="(\d+)" width="([\d.]+)" height="(\d+)" fill="%s"'
-    marks = re.findall(bar % css(COLOURS.category(4)), drawn)
-    ((top, _, _),) = re.findall(bar % css(COLOURS.flow), drawn)
-    assert len(marks) == 2
-    for y, width, height in marks:
-        assert int(y) + int(height) < int(top)
-        assert float(width) < 5
-
-
-def test_the_strip_of_a_single_frame_is_drawn():
-    assert "<rect" in strip(Timeline(1, (), (), ((0, 0),)), Playback(0, 0), COLOURS, "")

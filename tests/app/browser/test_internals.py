@@ -28,6 +28,12 @@ def test_a_control_has_the_id_of_its_element(client):
     )
 
 
+def test_hints_are_known_by_the_id_of_the_control(client):
+    told = client.gui.add_number("k", 1.0, hint="A number.")
+    client.gui.add_number("l", 1.0)
+    assert internals.hints_of(client) == {told._impl.uuid: "A number."}
+
+
 def test_actions_run_in_the_event_loop_of_a_control(client):
     control, ran, threads = client.gui.add_number("k", 1.0), threading.Event(), []
 
@@ -64,11 +70,6 @@ def test_the_canvas_of_the_scene_is_found():
     in_page(r"setAttribute\(`data-engine`", why="the scene's canvas is not found")
 
 
-def test_the_arrow_of_a_closed_folder_is_found():
-    assert internals.FOLDER_ARROW == "svg.tabler-icon-chevron-down"
-    in_page(r"`tabler-icon-\$\{", "`chevron-down`", why="folders are not unfolded")
-
-
 def test_the_input_of_a_number_field_is_found():
     assert internals.NUMBER_INPUT == "input.mantine-NumberInput-input"
     in_page(
@@ -90,11 +91,6 @@ def test_dropdowns_open_a_list_of_options():
 def test_sliders_and_tabs_say_what_they_are():
     assert internals.SLIDER_OR_TAB == "[role=slider], [role=tab]"
     in_page("role:`slider`", "role:`tab`", why="arrow keys move playback beside a slider")
-
-
-def test_the_area_and_the_canvas_of_a_plot_are_found():
-    assert (internals.PLOT_AREA, internals.PLOT_CANVAS) == (".u-over", ".uplot canvas")
-    in_page(r"\.u-over\b", r"\.uplot\b", "=`u-over`", "=`uplot`", why="plots take no clicks")
 
 
 def test_the_browsers_storage_is_read_below_a_prefix():
@@ -133,6 +129,39 @@ def test_values_that_arrive_can_be_held_back():
 def test_the_title_of_the_page_can_be_replaced():
     assert page().count(internals.PAGE_TITLE) == 1, (
         f"viser's page has another title: offline pages keep it (PAGE_TITLE of {INTERNALS})"
+    )
+
+
+def test_the_page_is_drawn_into_one_element():
+    assert internals.PAGE_ROOT == "#root"
+    assert page().count('<div id="root">') == 1, (
+        f"viser's page is drawn elsewhere: its own panel is seen while the page loads ({INTERNALS})"
+    )
+
+
+def test_the_button_of_viser_s_own_settings_is_found():
+    assert internals.SETTINGS_ICON == "svg.tabler-icon-adjustments"
+    in_page(r"`tabler-icon-\$\{", "`adjustments`", why="viser's own settings can be opened")
+
+
+def test_the_worker_that_holds_the_connection_says_how_it_is():
+    patterns = [rf"\w\(\{{type:`{news}`" for news in internals.CONNECTION_NEWS]
+    in_page(r"new Worker\(", *patterns, why="a lost connection is not told")
+
+
+def test_notices_have_classes():
+    in_page(
+        "`mantine`|=`mantine`", "`Notifications`", "`Notification`", why="notices.css hits nothing"
+    )
+
+
+def test_a_ray_through_the_pointer_can_be_computed():
+    in_page(
+        r"__viserMutable=\w+\.current",
+        r"__viserSceneTree=\{getState:",
+        r"\.current\.canvas=",
+        r"\.current\.camera\b",
+        why="points and frustums in the scene answer nothing (assets/answers.js)",
     )
 
 

@@ -1,5 +1,7 @@
 import os
+import sys
 
+import numpy as np
 import pytest
 
 from app.command_line import main
@@ -27,7 +29,7 @@ def room(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        ([], 2, "one of the arguments --screenshot --html is required"),
+        ([], 2, "one of the arguments --screenshot --vector --video --images --html --flow is"),
         (["--screenshot", "a.png", "--html", "a.html"], 2, "not allowed with argument"),
         (["--screenshot", "a.png", "--size", "1600"], 2, "a size is written 1600x900"),
         (["--screenshot", "a.png", "--size", "9x900"], 2, "each side from 16 to 4096"),
@@ -38,7 +40,26 @@ def room(tmp_path):
         (["--html", "a.html", "--frames", ":9"], 1, "room has no frame 9"),
         (["--html", "a.html", "--frames", "2:1"], 1, "must not be before the first; got 2:1"),
         (["--html", "a.html", "--frame", "1"], 1, "--frame applies only to --screenshot"),
-        (["--screenshot", "a.png", "--frames", "1:2"], 1, "--frames applies only to --html"),
+        (["--html", "a.html", "--frame", "0"], 1, "--frame applies only to --screenshot"),
+        (["--html", "a.html", "--no-legend"], 1, "--no-legend applies only to --screenshot"),
+        (["--screenshot", "a.png", "--frames", "1:2"], 1, "--frames applies only to --video"),
+        (["--screenshot", "a.png", "--speed", "2"], 1, "--speed applies only to --video"),
+        (["--screenshot", "a.png", "--speed", "0"], 2, "a speed is a number from 0.01 to 100"),
+        (["--screenshot", "a.png", "--dpi", "300"], 1, "--dpi needs a size in millimetres"),
+        (["--screenshot", "a.png", "--size-mm", "88"], 2, "is written 88x62, each side from 10"),
+        (["--screenshot", "a.png", "--size-mm", "9x50"], 2, "is written 88x62, each side from 10"),
+        (["--screenshot", "a.png", "--size-mm", "88x62", "--size", "9x9"], 2, "each side from 16"),
+        (["--vector", "a.pdf", "--size-mm", "88x62", "--size", "90x90"], 2, "not allowed with"),
+        (["--vector", "a.pdf", "--size-mm", "88x62", "--dpi", "300"], 1, "--dpi applies only to"),
+        (["--screenshot", "a.png", "--size-mm", "900x90", "--dpi", "600"], 1, "each side may"),
+        (["--screenshot", "a.png", "--size-mm", "20x20", "--frame", "1"], 1, "has no room for its"),
+        (["--vector", "a.png"], 1, "a.png must end in .pdf or .svg"),
+        (["--video", "a.avi"], 1, "a.avi must end in .mp4 or .gif"),
+        (["--flow", "a.txt"], 1, "a.txt must end in .csv or .npz"),
+        (["--flow", "a.csv", "--frame", "1", "--frames", "1:2"], 1, "leave one out"),
+        (["--flow", "a.csv", "--frame", "1"], 1, "There is no flow: no frame lies n before"),
+        (["--flow", "a.csv", "--dark"], 1, "--dark applies only to"),
+        (["--images", "room.mcap"], 1, "room.mcap is no folder"),
         (["--html", "a.html", "--view", "3d", "top"], 1, "An offline page has one view, got 2"),
         (["--screenshot", "no/a.png"], 1, "no/a.png cannot be written: there is no folder"),
         (["--screenshot", "a.txt"], 1, "a.txt must end in .png"),
@@ -104,3 +125,43 @@ def test_a_chromium_that_ends_at_once_is_one_sentence(room, tmp_path, monkeypatc
     code, said = refusal(capsys, room, "--screenshot", tmp_path / "a.png")
     assert code == 1
     assert f"Chromium at {fake} does not start (it ended at once, with the exit code 7)." in said
+
+
+def test_a_figure_a_drawing_and_its_flow_are_made_without_chromium(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    sample = next(path for path in sample_paths() if "sideways" in path.name)
+    flags = ["--size-mm", "88x62", "--view", "3d", "top", "--frame", "24"]
+    for ending in ("pdf", "svg"):
+        place = tmp_path / f"a.{ending}"
+        assert main(["export", str(sample), *flags, "--vector", str(place)]) == 0
+        said = capsys.readouterr().out
+        assert said.startswith(f"{place}: frame 24 of {sample.stem}, ")
+        assert place.stat().st_size < 2e6
+    place = tmp_path / "a.npz"
+    assert main(["export", str(sample), "--frames", "20:22", "--flow", str(place)]) == 0
+    assert capsys.readouterr().out.startswith(f"{place}: frames 20 to 22 of {sample.stem}, ")
+    with np.load(place) as arrays:
+        assert set(arrays["frame"].tolist()) == {20, 21, 22}
+    place = tmp_path / "a.csv"
+    assert main(["export", str(sample), "--flow", str(place)]) == 0
+    assert '"Data": "simulated' in place.read_text()
+
+
+def test_a_video_without_ffmpeg_is_refused_before_anything_is_drawn(
+    room, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    monkeypatch.setattr("app.exports.video.video", lambda *_: pytest.fail("drawn"))
+    code, said = refusal(capsys, room, "--video", tmp_path / "a.mp4")
+    assert code == 1
+    assert "pip install imageio-ffmpeg" in said
+
+
+def test_the_help_can_be_read_by_a_person(capsys):
+    with pytest.raises(SystemExit):
+        main(["export", "--help"])
+    said = capsys.readouterr().out
+    for flag in ("--size-mm", "--dpi", "--vector", "--video", "--images", "--flow", "--speed"):
+        assert flag in said
+    assert "a column of a paper" in said

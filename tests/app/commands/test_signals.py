@@ -85,7 +85,7 @@ def test_a_server_that_computes_for_a_client_ends_well(number: int, tmp_path: Pa
     assert process.stdout is not None
     address = process.stdout.readline().split()[-1]
     with WireClient(address, lambda *_: None) as client:
-        until(lambda: client.has("Frame"), 60)
+        until(lambda: client.has("γ"), 60)
         process.send_signal(number)
         _, said = process.communicate(timeout=20)
     assert (process.returncode, said) == (0, "")

@@ -9,7 +9,7 @@ from app.errors import InputError
 from app.exports.offline_page import MOST_FRAMES, offline_page
 from app.scene.camera import Camera
 from app.scene.settings import ViewSettings
-from app.scene.views import THREE_D
+from app.scene.views import SLANTED
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
 
@@ -18,7 +18,7 @@ def page(opened, frames, progress=lambda _: None, settings=None, estimates=None)
     parameters = Parameters(n=4)
     settings = settings or ViewSettings()
     estimates = estimates or Estimates()
-    return offline_page(opened, frames, parameters, settings, THREE_D, estimates, progress)
+    return offline_page(opened, frames, parameters, settings, SLANTED, estimates, progress)
 
 
 def test_it_says_what_it_shows():

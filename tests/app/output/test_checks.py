@@ -5,16 +5,17 @@ import os
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from app.errors import InputError
-from app.exports.pictures import picture_file
+from app.exports.figure_size import FigureSize
+from app.exports.pictures import png
 from app.output.checks import GENERATOR, PAGE, PICTURE, TABLE, OutputKind, check_output
 from app.study import page
-from tests.app.exports.test_pictures import pixels
 
 OURS = {
     TABLE: json.dumps({"parameters": {}, "recordings": [], "means": []}).encode(),
-    PICTURE: picture_file([pixels()], None, None, {"Frame": "1"}),
+    PICTURE: png(Image.new("RGB", (8, 8)), FigureSize.in_pixels(8, 8), {"Frame": "1"}),
     PAGE: page.page("A study", []).encode(),
 }
 NAMES = {TABLE: "table", PICTURE: "picture", PAGE: "page"}

@@ -5,9 +5,11 @@ import pytest
 
 from app.analysis.comparison import A, B, Comparison
 from app.analysis.estimates import Estimates
+from app.analysis.survey import Survey
 from app.panels.compare import ComparePanel
-from app.panels.differences import changes, difference_table
+from app.panels.differences import changes, difference_table, totals
 from estimator import Parameters
+from tests.app.analysis.test_survey import filled
 from tests.app.fake_recordings import fake_opened
 from tests.app.fake_session import context, snapshot
 
@@ -23,31 +25,55 @@ def estimates():
     return Estimates()
 
 
-def test_every_number_of_a_and_b_and_what_lies_between(estimates):
-    a = estimates.estimated(fake_opened(), 20, Parameters())
-    b = estimates.estimated(fake_opened(), 20, Parameters(method="baseline"))
-    said = rows(difference_table(replace(a, milliseconds=61.2), replace(b, milliseconds=40.9)))
-    assert said["Moving"] == ["100", "500", "+400"]
-    assert said["Stationary"] == ["400", "0", "−400"]
-    assert said["Unassigned"] == ["0", "0", "+0"]
-    assert said["Clusters"] == ["5", "5", "+0"]
-    assert said["Coverage"] == ["1.000", "1.000", "+0.000"]
-    assert said["Precision"] == ["1.000", "0.200", "−0.800"]
+def said_of(a, b, whole_a=None, whole_b=None):
+    """Rows of the table; cells without their hints."""
+    counts = {A: "yes", B: "yes"}
+    html = difference_table({A: a, B: b}, {A: whole_a, B: whole_b}, counts)
+    return rows(re.sub(r"</?span[^>]*>", "", html))
+
+
+def test_every_number_of_a_and_b_in_the_frame_and_over_the_recording(estimates):
+    opened, of_b = fake_opened(), Parameters(method="baseline")
+    a = estimates.estimated(opened, 20, Parameters())
+    b = estimates.estimated(opened, 20, of_b)
+    pairs = replace(a, milliseconds=61.2), replace(b, milliseconds=40.9)
+    surveys = filled(opened, Parameters(), estimates), filled(opened, of_b, estimates)
+    said = said_of(*pairs, *map(totals, surveys))
+    assert said[""] == ["A", "B", "A", "B"]
+    assert said["Moving"] == ["100", "500", "3200", "16000"]
+    assert said["Stationary"] == ["400", "0", "12800", "0"]
+    assert said["Unassigned"] == ["0", "0", "0", "0"]
+    assert said["Clusters"] == ["5", "5", "160", "160"]
+    # Nothing is marked where the two are equal.
+    assert said["Coverage"] == ["1.000"] * 4
+    assert said["Precision"] == ["<b>1.000</b>", "0.200", "<b>1.000</b>", "0.200"]
     # Times depend on the machine's load, so they do not compare A with B.
     assert not any("ms" in name for name in said)
     # Four patches in five rest, so that the baseline is wrong by 0.15 m/s there.
-    assert said["Vel. error [m/s]"] == ["0.0000", "0.1200", "+0.1200"]
+    assert said["Velocity error [m/s]"] == ["<b>0.0000</b>", "0.1200"] * 2
+    assert said["Pairs that count"] == ["yes", "yes", "32 of 32", "32 of 32"]
+    html = difference_table({A: a, B: b}, {A: None, B: None}, {A: "yes", B: "yes"})
+    assert 'title="B − A: +400"' in html
+    assert 'title="B − A: −0.800"' in html
 
 
 def test_what_is_not_known_is_a_dash(estimates):
     a = estimates.estimated(fake_opened(), 20, Parameters())
-    said = rows(difference_table(a, None))
-    assert said["Moving"] == ["100", "–", "–"]
+    assert said_of(a, None)["Moving"] == ["100", "–", "–", "–"]
     still = estimates.estimated(fake_opened(), 20, Parameters(delta=0.5))
-    said = rows(difference_table(a, still))
-    assert said["Moving"] == ["100", "0", "−100"]
-    assert said["Precision"] == ["1.000", "–", "–"]
-    assert set(rows(difference_table(None, None))["Clusters"]) == {"–"}
+    said = said_of(a, still)
+    assert said["Moving"] == ["100", "0", "–", "–"]
+    assert said["Precision"] == ["1.000", "–", "–", "–"]
+    assert set(said_of(None, None)["Clusters"]) == {"–"}
+
+
+def test_no_side_is_the_better_one_before_the_whole_recording_is_computed(estimates):
+    opened, of_b = fake_opened(), Parameters(method="baseline")
+    surveys = Survey(opened.recording, Parameters()), Survey(opened.recording, of_b)
+    for survey in surveys:
+        survey.put(20, estimates.estimated(opened, 20, survey.parameters))
+    said = said_of(None, None, *map(totals, surveys))
+    assert said["Precision"] == ["–", "–", "1.000", "0.200"]
 
 
 def test_changed_parameters_are_named_and_no_others():
@@ -84,6 +110,15 @@ def test_the_panel_says_which_is_edited_and_what_is_not_estimated(client):
     panel.show(replace(now, comparison=both, other=snapshot().pair))
     assert client.control("Draw both").value
     assert "not estimated here" not in client.text()
-    assert rows(client.text())["Moving"] == ["100", "100", "+0"]
+    cells = rows(re.sub(r"</?span[^>]*>", "", client.text()))
+    assert cells["Moving"] == ["100", "100", "–", "–"]
+    assert "This frame" in client.text()
+    assert "Whole recording so far: nothing yet." in client.text()
+    survey = filled(now.opened, Parameters(), Estimates())
+    panel.show(replace(now, comparison=both, survey=survey, other_survey=survey))
+    cells = rows(re.sub(r"</?span[^>]*>", "", client.text()))
+    assert cells["Moving"] == ["–", "100", "3200", "3200"]
+    assert cells["Pairs that count"] == ["yes", "yes", "32 of 32", "32 of 32"]
+    assert "so far" not in client.text()
     panel.show(now)
     assert "<table" not in client.text()

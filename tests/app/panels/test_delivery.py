@@ -1,18 +1,25 @@
 from app.panels.delivery import Delivery
-from app.session.outbox import Download, LinkToCopy, Notice
+from app.session.outbox import Download, EnlargePlots, LinkToCopy, Notice
 from app.session.tasks import TaskState
 
 
 def test_messages_are_handed_over_in_their_order(client):
     client.take_sent()
     Delivery(client).deliver(
-        [Notice("A", "first"), Download("a.txt", b"content"), LinkToCopy("token"), Notice("A", "2")]
+        [
+            Notice("A", "first"),
+            Download("a.txt", b"content"),
+            LinkToCopy("token"),
+            EnlargePlots(),
+            Notice("A", "2"),
+        ]
     )
     assert client.notifications == ["first", "2"]
     assert client.removed == []
     assert client.downloads == [("a.txt", b"content")]
     scripts = [getattr(message, "source", "") for message in client.take_sent()]
     assert any("?link=token" in script for script in scripts)
+    assert scripts[-1] == "window.tofscope.plots.enlarge();"
 
 
 def test_a_sentence_about_a_file_whose_name_is_no_text_can_be_sent(client):

@@ -2,10 +2,9 @@ import threading
 from dataclasses import replace
 
 import pytest
-from viser._messages import RunJavascriptMessage
 
 from app.analysis.estimates import Estimates
-from app.panels.cluster_story import cluster_table, fills, story
+from app.panels.cluster_story import cluster_table, fills, story, telling_round
 from app.panels.explain import ExplainPanel, PickAt, PickCluster
 from app.panels.histograms import Histogram, upper_limit
 from app.scene.colours import PICKED, css
@@ -43,11 +42,15 @@ def test_the_story_says_every_margin_and_the_reason(moving):
     text = story(moving, Parameters(gamma=0.7, delta=0.04, n_min=60), COLOURS)
     assert "100 source and 100 target points" in text
     # 0.15 m/s over eight frames of 1/15 s.
-    for said in ("100 / 100", "+40", "1.00", "+0.30", "80 mm", "+40", "none", moving.reason):
+    for said in (
+        *("100 / 100", "+40", "1.00", "+0.30", "0.080 m", "+0.040", "none"),
+        moving.reason,
+        "mean displacement 0.080 m not below δ 0.04 m",
+    ):
         assert said in text
     below = story(moving, Parameters(gamma=0.7, delta=0.2, n_min=150), COLOURS)
     assert "−50" in below
-    assert "−120" in below
+    assert "−0.120" in below
 
 
 def test_removed_inliers_are_those_of_the_rounds_that_removed(moving):
@@ -66,6 +69,19 @@ def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
     )
     assert "Unassigned: few &lt;points&gt;." in text
     assert "<table" not in text
+
+
+def test_the_round_that_tells_is_the_one_that_decided_or_the_one_of_the_highest_fitness(moving):
+    rounds = tuple(replace(moving.rounds[0], fitness=fitness) for fitness in (0.3, 0.6, 0.1))
+    decided = replace(moving, rounds=rounds)
+    assert telling_round(decided) is rounds[2]
+    given_up = replace(decided, label=Label.UNASSIGNED)
+    assert telling_round(given_up) is rounds[1]
+    for cluster in (replace(moving, rounds=()), replace(given_up, rounds=())):
+        assert telling_round(cluster) is None
+    table = cluster_table([given_up], None, COLOURS, no_click)
+    assert "0.60" in table
+    assert "0.080 m" in table
 
 
 def no_click(cluster):
@@ -125,6 +141,8 @@ def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, mo
     panel.show(replace(now, picked=moving.index))
     assert client.control("Cluster").value == f"{moving.index} moving"
     assert moving.reason in client.text()
+    text = client.text()  # in the order of the page
+    assert text.index("Fitness</th>") < text.index(moving.reason) < text.index("<svg viewBox")
     panel.show(replace(now, pair=None))
     assert client.control("Cluster").options == ("none",)
     assert "There is no estimate of this frame to explain." in client.text()
@@ -140,15 +158,6 @@ def test_what_moves_has_the_colour_of_the_flow_on_every_page(client, moving):
     panel.show(replace(dark, picked=moving.index))
     assert light not in client.text()
     assert client.text().count(bright) >= 5  # table, story, two bars and what they mean
-
-
-def test_a_pick_in_the_scene_unfolds_its_story_and_a_miss_does_not(client):
-    panel = ExplainPanel(context(client))
-    for picked_in_scene, found in ((0, False), (1, True), (1, False), (2, True)):
-        client.take_sent()
-        panel.show(snapshot(picked_in_scene=picked_in_scene))
-        scripts = [m.source for m in client.take_sent() if isinstance(m, RunJavascriptMessage)]
-        assert ("window.tofscopeUnfold('Explain')" in scripts) is found
 
 
 def test_what_a_person_picks_is_posted(client):

@@ -6,9 +6,9 @@ from app.analysis.estimates import Estimates
 from app.panels.differences import changes
 from app.panels.explain import ExplainPanel
 from app.panels.parameter_controls import label_of
-from app.panels.parameters import ParametersPanel
+from app.panels.parameters import MoreParametersPanel, ParametersPanel
 from app.panels.status import StatusPanel
-from app.session.commands import ChangeParameters, ResetParameters
+from app.session.commands import ResetParameters
 from app.session.tuning import Tuning
 from estimator import PARAMETER_INFO, Parameters, changed, register
 from recordings import open_recording, sample_paths
@@ -30,42 +30,52 @@ def visible(client, label: str) -> bool:
 
 
 def test_controls_are_those_of_the_method_that_is_chosen(client, own):
-    panel = ParametersPanel(context(client))
+    surroundings = context(client)
+    panels = [ParametersPanel(surroundings), MoreParametersPanel(surroundings)]
+
+    def announce(state):
+        for panel in panels:
+            panel.announce(state)
+
     assert visible(client, "γ")
     assert not visible(client, "v_0")
-    panel.announce(status(parameters=own, parameters_revision=1))
-    for label in ("n", "v_0", "robust", "max range", "method"):
+    announce(status(parameters=own, parameters_revision=1))
+    for label in ("n", "v_0", "robust", "max range [m]", "method"):
         assert visible(client, label), label
     for label in ("γ", "δ", "N_min", "min cluster size", "min samples"):
         assert not visible(client, label), label
-    assert client.control("Reset").options == ("n", "v_0", "All")
-    panel.announce(status(parameters_revision=2))
+    assert client.control("Reset").options == ("n", "v_0", "others", "all")
+    announce(status(parameters_revision=2))
     assert visible(client, "γ")
     assert not visible(client, "v_0")
     sliders = [label_of(name, info) for name, info in PARAMETER_INFO.items() if info.slider]
-    assert client.control("Reset").options == (*sliders, "All")
+    assert client.control("Reset").options == (*sliders, "others", "all")
 
 
 def test_a_control_of_its_own_changes_its_parameter(client, own):
     posted = []
-    ParametersPanel(context(client, posted.append))
+    surroundings = context(client, posted.append)
+    ParametersPanel(surroundings)
+    MoreParametersPanel(surroundings)
     client.change("v_0", 0.2)
     client.change("robust", False)
-    assert posted == [
-        ChangeParameters({"range-rate.slowest": 0.2}),
-        ChangeParameters({"range-rate.robust": False}),
+    assert [command.values for command in posted] == [
+        {"range-rate.slowest": 0.2},
+        {"range-rate.robust": False},
     ]
 
 
-def test_its_parameters_are_taken_refused_undone_and_reset(own):
+def test_its_parameters_are_taken_corrected_undone_and_reset(own):
     tuning = Tuning(own, own)
-    tuning.enter({"range-rate.slowest": 0.2}, (), now=0.0)
+    ranges = {"range-rate.slowest": (0.0, 0.5)}
+    tuning.enter({"range-rate.slowest": 0.2}, ranges, now=0.0)
     assert tuning.parameters.of(RangeRateParameters).slowest == 0.2
-    tuning.enter({"range-rate.slowest": 99.0}, (), now=5.0)
-    assert "range-rate.slowest must be between 0 and 10 m/s" in (
-        tuning.refusals["range-rate.slowest"].reason
-    )
-    tuning.undo(1)
+    tuning.enter({"range-rate.slowest": 99.0}, ranges, now=5.0)
+    assert tuning.corrections == {
+        "range-rate.slowest": "v_0 goes from 0 to 0.5 m/s: 99 became 0.5."
+    }
+    assert tuning.parameters.of(RangeRateParameters).slowest == 0.5
+    tuning.undo(2)
     assert tuning.parameters == own
     tuning.undo(-1)
     assert tuning.parameters.of(RangeRateParameters).slowest == 0.2

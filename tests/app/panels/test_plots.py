@@ -1,30 +1,66 @@
-import itertools
-import re
+"""The panel of plots: what it sends to the page, and what it says."""
+
+import json
+from base64 import b64decode
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pytest
 
+from app.analysis.comparison import A, B, Comparison
 from app.analysis.estimates import Estimates
-from app.analysis.evaluation import evaluate
 from app.analysis.survey import Survey
 from app.analysis.surveys import Surveys
-from app.panels.plot_list import PLOTS, summary
-from app.panels.plots import PlotsPanel, SavePlots
-from app.panels.tables import PLOTTED
-from app.panels.time_field import SeekTime
+from app.panels.plot_list import PLOTS, plots
+from app.panels.plot_pair import PlotPair
+from app.panels.plot_words import HOLLOW
+from app.panels.plots import Enlarge, PlotsPanel
 from app.scene.colours import css
 from app.scene.settings import ViewSettings
+from app.session.commands import Refuse, seek
 from app.session.followed_survey import FollowedSurvey
-from app.session.snapshot import TimeSeek
-from estimator import METRIC_INFO, Parameters
-from recordings import PairTruth
+from app.session.outbox import EnlargePlots
+from estimator import Parameters
 from tests.app.analysis.test_survey import filled
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
 from tests.app.fake_session import context, snapshot
 from tests.app.waiting import until
+
+
+def calls(client, function):
+    """Arguments of the calls of a function of the page's plots, of all messages so far."""
+    start = f"window.tofscope.plots.{function}("
+    sources = [getattr(message, "source", "") for message in client.sent]
+    found = [source for source in sources if source.startswith(start)]
+    return [json.loads(f"[{source[len(start) : -2]}]") for source in found]
+
+
+def decoded(text, kind) -> Any:
+    return np.frombuffer(b64decode(text), kind)
+
+
+class Page:
+    """What the page has been told: the numbers of each side, by frame."""
+
+    def __init__(self, client):
+        self.client = client
+
+    def numbers(self, side, name):
+        (times, _) = calls(self.client, "open")[-1]
+        values = np.full(len(decoded(times, "<f8")), np.nan)
+        for of, frames, _, arrays in calls(self.client, "add"):
+            if of == side and name in arrays:
+                values[decoded(frames, "<u4")] = decoded(arrays[name], "<f4")
+        return values
+
+    def counts(self, side):
+        (times, _) = calls(self.client, "open")[-1]
+        counts = np.full(len(decoded(times, "<f8")), -1)
+        for of, frames, flags, _ in calls(self.client, "add"):
+            if of == side:
+                counts[decoded(frames, "<u4")] = decoded(flags, "u1")
+        return counts
 
 
 class Bench:
@@ -32,6 +68,7 @@ class Bench:
 
     def __init__(self, client, recording=None):
         self.client, self.posted, self.news = client, [], []
+        self.page = Page(client)
         self.survey = FollowedSurvey(Surveys(Estimates()), self.news.append)
         self.panel = PlotsPanel(context(client, self.posted.append))
         self.opened = fake_opened(recording)
@@ -49,41 +86,87 @@ class Bench:
             self.survey.receive(news)
         self.show(**changes)
 
-    @property
-    def plots(self) -> Any:
-        return self.panel._plots
-
 
 def test_the_whole_recording_is_plotted_without_being_asked(client):
     bench = Bench(client)
     assert "Computing the whole recording" in client.text()
     bench.fill()
-    for plot in bench.plots:
-        np.testing.assert_allclose(plot.data[0], PERIOD * np.arange(FRAMES), atol=1e-9)
-        assert np.isnan(plot.data[1][:8]).all()
-        assert np.isfinite(plot.data[1][8:]).all()
-    assert (bench.plots[0].data[1][8:] == 100).all()
+    ((times, quantities),) = calls(client, "open")
+    np.testing.assert_allclose(decoded(times, "<f8"), PERIOD * np.arange(FRAMES), atol=1e-9)
+    assert [quantity["name"] for quantity in quantities] == list(PLOTS)
+    for name in (*PLOTS, "true_speed"):
+        values = bench.page.numbers(A, name)
+        assert np.isnan(values[:8]).all()
+        assert np.isfinite(values[8:]).all()
+    assert (bench.page.numbers(A, "moving")[8:] == 100).all()
     assert "Computing" not in client.text()
-    assert f"Means, {FRAMES - 8} pairs with {100 * (FRAMES - 8)} flow points" in client.text()
+    assert HOLLOW in client.text()
+    pairs = FRAMES - 8
+    assert calls(client, "say")[-1][0]["coverage"] == f"Mean 1.000, {pairs} of {pairs} pairs count"
 
 
-def test_the_values_at_the_frame_are_said_and_a_line_is_drawn_there(client):
+def test_every_frame_is_sent_once(client):
     bench = Bench(client)
-    bench.fill()
-    bench.show(frame=13)
-    assert f"left: {100 * 13 / (FRAMES - 1):.3f}%" in client.text()
-    assert ">100<" in client.text()
-    bench.show(frame=3)
-    assert ">100<" not in client.text()
+    survey, estimates = Survey(bench.opened.recording, Parameters()), Estimates()
+    for revision, k in enumerate((20, 12, 30), start=1):
+        survey.put(k, estimates.estimated(bench.opened, k, Parameters()))
+        bench.show(survey=survey, survey_revision=revision)
+        bench.show(survey=survey, survey_revision=revision)
+    sent = [list(decoded(frames, "<u4")) for _, frames, _, _ in calls(client, "add")]
+    assert sent == [[*range(8), 20], [12], [30]]
 
 
-def test_moving_on_draws_no_plot_again(client):
+def test_the_frame_is_told_and_nothing_else(client):
     bench = Bench(client)
     bench.fill()
     client.take_sent()
     bench.show(frame=21)
+    assert calls(client, "at") == [[21]]
     size = sum(len(str(message)) for message in client.take_sent())
-    assert 0 < size < 8000
+    assert 0 < size < 500
+
+
+def test_pairs_that_do_not_count_are_hollow(client):
+    fake = fake_recording()
+    fake.truth = lambda k: np.zeros(3) if k < 20 else np.array([0.0, 0.15, 0.0])
+    bench = Bench(client, fake)
+    bench.fill()
+    np.testing.assert_array_equal(bench.page.counts(A), np.arange(FRAMES) >= 28)
+    assert np.isfinite(bench.page.numbers(A, "angle_deg")[8:]).all()
+    note = calls(client, "say")[-1][0]["angle_deg"]
+    assert note.endswith(f"{FRAMES - 28} of {FRAMES - 8} pairs count")
+
+
+def test_b_is_plotted_over_a_whichever_is_edited(client):
+    bench = Bench(client)
+    opened, estimates = bench.opened, Estimates()
+    of_a = filled(opened, Parameters(), estimates)
+    of_b = filled(opened, Parameters(method="baseline", n=5), estimates)
+    both = Comparison(Parameters(), edited=B)
+    bench.show(
+        comparison=both, survey=of_b, other_survey=of_a, survey_revision=1, other_survey_revision=1
+    )
+    colours = ViewSettings().palette
+    (sides, looks) = calls(client, "look")[-1]
+    assert sides == [A, B]
+    assert looks == {A: css(colours.flow), B: css(colours.second), "truth": css(colours.truth)}
+    assert (bench.page.numbers(A, "moving")[8:] == 100).all()
+    assert (bench.page.numbers(B, "moving")[5:] == 500).all()
+    said = calls(client, "say")[-1][0]["precision"]
+    assert said == "Mean A 1.000, 32 of 32 pairs count; B 0.200, 35 of 35 pairs count"
+    client.take_sent()
+    swapped = both.switched(Parameters())
+    bench.show(
+        comparison=swapped,
+        survey=of_a,
+        other_survey=of_b,
+        survey_revision=1,
+        other_survey_revision=1,
+    )
+    assert not calls(client, "add")
+    assert not calls(client, "outdate")
+    bench.show(survey=of_a, survey_revision=1)
+    assert calls(client, "look")[-1][0] == [A]
 
 
 def test_what_was_left_is_not_plotted(client):
@@ -93,11 +176,13 @@ def test_what_was_left_is_not_plotted(client):
     bench.news.clear()
     still = Parameters(delta=0.5)
     bench.show(parameters=still)
+    assert calls(client, "outdate") == [[A]]  # drawn pale until there are others
     for news in late:
         bench.survey.receive(news)
     assert bench.survey.survey is None
     bench.fill(parameters=still)
-    assert (bench.plots[0].data[1][8:] == 0).all()
+    assert (bench.page.numbers(A, "moving")[8:] == 0).all()
+    assert len(calls(client, "outdate")) == 1
 
 
 def test_without_truth_the_plots_that_need_none_stay_and_it_says_so(client):
@@ -106,163 +191,62 @@ def test_without_truth_the_plots_that_need_none_stay_and_it_says_so(client):
     fake.truth = lambda _: None
     fake.pair_truth = lambda *_: None
     bench = Bench(client, fake)
-    visible = [not spec.needs_truth for spec in PLOTS]
-    assert [plot.visible for plot in bench.plots] == visible
-    last = len(visible) - 1 - visible[::-1].index(True)
-    assert labelled(bench) == [i == last for i in range(len(PLOTS))]
+    ((_, quantities),) = calls(client, "open")
+    assert [quantity["name"] for quantity in quantities] == ["moving", "speed"]
+    assert not any(quantity["reference"] for quantity in quantities)
     bench.fill()
     assert "No truth in this recording" in client.text()
-    assert ">est.<" in client.text()
-    assert ">true<" not in client.text()
-    assert (bench.plots[0].data[1][8:] == 100).all()
+    assert "Hollow" not in client.text()
+    assert (bench.page.counts(A) == 1).all()
+    assert (bench.page.numbers(A, "moving")[8:] == 100).all()
+    assert not calls(client, "say")
 
 
-def labelled(bench):
-    return ["values" not in plot.axes[0] for plot in bench.plots]
+def test_values_are_written_and_drawn_as_their_quantity_says():
+    shown = {quantity.name: quantity for quantity in plots(has_truth=True)}
+    assert (shown["angle_deg"].title, shown["angle_deg"].unit) == ("Angle deviation", "°")
+    assert (shown["velocity_error"].unit, shown["velocity_error"].digits) == ("m/s", 4)
+    assert (shown["coverage"].top, shown["angle_deg"].top) == (1.0, None)
+    assert shown["moving"].digits == 0
+    assert shown["speed"].reference == "true_speed"
 
 
-def test_the_last_plot_has_the_times_below_it(client):
-    bench = Bench(client)
-    assert labelled(bench) == [spec is PLOTS[-1] for spec in PLOTS]
-    assert len({plot.height for plot in bench.plots[:-1]}) == 1
-    assert bench.plots[-1].height > bench.plots[0].height
-    assert ">true<" in client.text()
-
-
-def test_the_first_and_the_last_numbers_build_every_plot_anew(client):
-    bench = Bench(client)
-    survey, revisions = Survey(bench.opened.recording, Parameters()), itertools.count(1)
-
-    def built():
-        client.take_sent()
-        bench.show(survey=survey, survey_revision=next(revisions))
-        return sum("scales" in getattr(m, "updates", {}) for m in client.take_sent())
-
-    assert [built(), built()] == [len(bench.plots), 0]
-    survey.done[:] = True
-    assert built() == len(bench.plots)
-
-
-def test_a_time_leads_to_the_nearest_frame():
-    class Workbench:
-        opened = fake_opened()
-        frame = time_seek = None
-
-        def seek(self, frame):
-            self.frame = frame
-
-    bench: Any = Workbench()
-    SeekTime(1.0).apply(bench)
-    assert bench.frame == 15
-    assert bench.time_seek == TimeSeek(1.0, 15)
-    SeekTime(1e9).apply(bench)
-    assert bench.frame == FRAMES - 1
-
-
-def test_the_number_field_posts_a_time(client):
-    bench = Bench(client)
-    client.change("Go to [s]", 1.25)
-    until(lambda: SeekTime(1.25) in bench.posted)
-
-
-def test_the_number_field_follows_the_frame_and_leaves_alone_what_is_typed(client):
-    bench = Bench(client)
-    field, at = client.control("Go to [s]"), lambda frame: round(PERIOD * frame, 3)
-    bench.show(frame=24)
-    assert field.value == at(24)
-    client.change("Go to [s]", 1.25)
-    until(lambda: bench.panel._time._typed == 1.25)
-    bench.show(frame=24)  # before the session has gone there
-    assert field.value == 1.25
-    first = TimeSeek(1.2, 18)  # to where the first letters lead
-    bench.show(frame=18, time_seek=first)
-    assert field.value == 1.25
-    bench.show(frame=18, time_seek=first)
-    assert field.value == 1.25
-    last = TimeSeek(1.25, 19)
-    bench.show(frame=19, time_seek=last)
-    assert field.value == 1.25
-    bench.show(frame=20, time_seek=last, playing=True)  # a moment after the last letter
-    assert field.value == 1.25
-    bench.panel._time._typed_at -= 10
-    bench.show(frame=20, time_seek=last, playing=True)
-    assert field.value == at(20)
-    bench.show(frame=19, time_seek=last)  # again, with no typing
-    assert field.value == at(19)
-    client.change("Go to [s]", 1.26)
-    until(lambda: bench.panel._time._typed == 1.26)
-    bench.show(frame=19, time_seek=TimeSeek(1.26, 19))
-    assert field.value == 1.26
-    client.change("Go to [s]", 1.25)
-    until(lambda: bench.panel._time._typed == 1.25)
-    bench.show(frame=19, time_seek=TimeSeek(1.25, 19))
-    assert bench.panel._time._typed is None
-    bench.show(frame=FRAMES - 1)
-    assert field.value <= field.max
-
-
-def test_points_of_what_was_left_are_pale_until_there_are_others(client):
+def test_any_two_quantities_are_plotted_against_each_other(client):
     bench = Bench(client)
     bench.fill()
+    client.change("against", "Source points")
+    client.change("Plot", "False flow")
+    until(lambda: PlotPair(("points", "false_flow")) in bench.posted)
+    workbench: Any = SimpleNamespace(plotted_pair=None)
+    bench.posted[-1].apply(workbench)
+    bench.show(plotted_pair=workbench.plotted_pair)
+    (pair,) = calls(client, "pair")[-1]
+    assert (pair["x"]["name"], pair["y"]["name"]) == ("points", "false_flow")
+    assert (bench.page.numbers(A, "points")[8:] == 500).all()
+    assert (bench.page.numbers(A, "false_flow")[8:] == 0).all()
+    client.change("Plot", "nothing")
+    until(lambda: PlotPair(None) in bench.posted)
     bench.show()
-    assert "opacity: 0.25" not in client.text()
-    bench.news.clear()
-    bench.show(parameters=Parameters(delta=0.5))
-    assert "opacity: 0.25" in client.text()
-    bench.fill(parameters=Parameters(delta=0.5))
-    assert "opacity: 0.25" not in client.text()
+    assert calls(client, "pair")[-1] == [None]
+    client.change("Plot", "<b>")
+    until(lambda: isinstance(bench.posted[-1], Refuse))
 
 
-def test_the_file_is_that_of_what_is_plotted(client):
+def test_a_click_seeks(client):
     bench = Bench(client)
-    bench.fill()
-    client.press("Save as CSV")
-    until(lambda: bench.posted)
-    assert bench.posted == [SavePlots()]
-    workbench: Any = SimpleNamespace(opened=bench.opened, survey=bench.survey, outbox=[])
-    bench.posted[0].apply(workbench)
-    (file,) = workbench.outbox
-    assert file.name == "fake_plots.csv"
-    assert len(file.content.decode().splitlines()) == FRAMES + 2
+    client.tell("plots.seek", {"frame": 17})
+    client.tell("plots.seek", {"frame": "17"})
+    until(lambda: seek(17) in bench.posted)
+    assert len([command for command in bench.posted if command == seek(17)]) == 1
 
 
-def test_the_summary_says_what_evaluate_says():
-    opened, parameters = fake_opened(), Parameters()
-    metrics = evaluate(opened.recording, parameters)
-    assert metrics is not None
-    said = summary(filled(opened, parameters, Estimates()), has_truth=True)
-    numbers = re.findall(r"tabular-nums\">([^<]+)<", said)
-    assert numbers == [METRIC_INFO[name].text(getattr(metrics, name)) for name in PLOTTED]
-
-
-def test_a_recording_none_of_whose_pairs_counts_says_so():
-    fake = fake_recording()
-    fake.truth = lambda _: np.zeros(3)
-    said = summary(filled(fake_opened(fake), Parameters()), has_truth=True)
-    assert "No pair counts" in said
-    assert "Of the points at rest 0.00 % got a flow." in said
-
-    size = len(fake.cloud(0).points)
-    fake.pair_truth = lambda *_: PairTruth(np.zeros((size, 3)), np.zeros((size, 3)))
-    said = summary(filled(fake_opened(fake), Parameters()), has_truth=True)
-    assert "Of the points at rest 20.00 % got a flow." in said
-    fake.pair_truth = lambda *_: PairTruth(np.zeros((size, 3)), None)
-    assert "at rest" not in summary(filled(fake_opened(fake), Parameters()), has_truth=True)
-
-
-def test_while_it_is_filled_it_says_how_far_it_is():
-    survey = Survey(fake_recording(), Parameters())
-    assert f"8 of {FRAMES} frames" in summary(survey, has_truth=True)
-    assert "width: 20%" in summary(survey, has_truth=True)
-
-
-@pytest.mark.parametrize(("largest", "top"), [(0.15, 0.2), (6.6, 10), (5.0, 5), (1530, 2000)])
-def test_axes_end_at_round_numbers(client, largest, top):
+def test_the_plots_can_be_enlarged_from_the_palette(client):
     bench = Bench(client)
-    survey = Survey(fake_recording(), Parameters())
-    survey.metrics["angle_deg"][10] = largest
-    bench.show(survey=survey, survey_revision=1)
-    assert bench.plots[2].scales["y"]["range"] == pytest.approx((-0.06 * top, 1.06 * top))
+    client.trigger("Enlarge plots")
+    until(lambda: Enlarge() in bench.posted)
+    workbench: Any = SimpleNamespace(outbox=[])
+    Enlarge().apply(workbench)
+    assert workbench.outbox == [EnlargePlots()]
 
 
 def test_plots_have_the_colours_of_the_scene(client):
@@ -270,9 +254,6 @@ def test_plots_have_the_colours_of_the_scene(client):
     dark = replace(ViewSettings(), dark=True)
     light, bright = css(ViewSettings().palette.flow), css(dark.palette.flow)
     assert light != bright
-    assert bench.plots[0].series[1]["stroke"] == light
+    assert calls(client, "look")[-1][1][A] == light
     bench.show(settings=dark)
-    assert bench.plots[0].series[1]["stroke"] == bright
-    assert bench.plots[0].series[1]["points"]["fill"] == bright
-    assert f"background: {bright}" in client.text()
-    assert f"background: {light}" not in client.text()
+    assert calls(client, "look")[-1][1][A] == bright

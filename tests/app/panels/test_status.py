@@ -1,14 +1,24 @@
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from app.analysis.estimates import Estimates
 from app.panels.status import StatusPanel, facts, note_on
 from app.panels.tables import PLOTTED, metric_title
 from app.scene.palettes import PAPER, palette
-from estimator import Method, Parameters, register, scene_flow_of_points
-from tests.app.fake_recordings import fake_opened, fake_recording
+from estimator import (
+    Method,
+    Parameters,
+    SceneFlow,
+    Window,
+    estimate_scene_flow,
+    register,
+    scene_flow_of_points,
+)
+from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording, grid
 from tests.app.fake_session import context, snapshot
 
 
@@ -20,7 +30,7 @@ def test_all_numbers_of_a_pair():
     pair = Estimates().estimated(fake_opened(), 20, Parameters())
     numbers = said(replace(pair, milliseconds=61.4))
     errors = {metric_title(name): numbers.pop(metric_title(name)) for name in PLOTTED}
-    assert errors["Vel. error"] == "0.0000 m/s"
+    assert errors["Velocity error"] == "0.0000 m/s"
     assert errors["Angle deviation"] == "0.00°"
     assert errors["Coverage"] == errors["Precision"] == "1.000"
     assert numbers == {
@@ -30,9 +40,9 @@ def test_all_numbers_of_a_pair():
         "Stationary": "400",
         "Unassigned": "0",
         "Clusters": "5",
-        "Interval": "0.533 s",
-        "Estimate": "61.4 ms",
-        "Truth": "0.150 m/s",
+        "Δt of the pair": "0.533 s",
+        "Compute time": "61 ms",
+        "True speed": "0.150 m/s",
     }
     assert note_on(pair, Parameters()) == ""
 
@@ -49,7 +59,14 @@ def test_no_flow_means_no_errors():
     pair = Estimates().estimated(fake_opened(), 20, Parameters(delta=0.5))
     assert said(pair)["Moving"] == "0"
     assert said(pair)["Angle deviation"] == "–"
-    assert said(pair)["Truth"] == "0.150 m/s"
+    assert said(pair)["True speed"] == "0.150 m/s"
+
+
+def test_what_was_computed_before_is_called_reused():
+    pair = Estimates().estimated(fake_opened(), 20, Parameters())
+    assert said(replace(pair, milliseconds=61.4, reused=True))["Compute time"] == "reused"
+    before = Estimates().estimated(fake_opened(), 2, Parameters())
+    assert said(before)["Compute time"] == "–"
 
 
 def test_an_object_at_rest_is_said():
@@ -58,7 +75,7 @@ def test_an_object_at_rest_is_said():
     fake.pair_truth = lambda *_: type(truth)(0 * truth.velocity, 0 * truth.points)
     pair = Estimates().estimated(fake_opened(fake), 20, Parameters())
     assert note_on(pair, Parameters()) == "The moving object is at rest."
-    assert said(pair)["Truth"] == "–"
+    assert said(pair)["True speed"] == "–"
 
 
 def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
@@ -73,7 +90,7 @@ def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
 @pytest.mark.parametrize(
     ("parameters", "why"),
     [
-        (Parameters(delta=0.5), "displacements reach 80 mm, below δ"),
+        (Parameters(delta=0.5), "displacements reach 0.080 m, below δ"),
         (Parameters(gamma=1.0), "fitness reaches 1.00, not above γ"),
         (Parameters(n_min=400), "every cluster is below N_min; the largest has 100 points"),
         (
@@ -111,6 +128,7 @@ def test_simulated_data_are_called_so(client):
         fake.simulated = simulated
         panel.show(snapshot(opened=fake_opened(fake)))
         assert ("simulated" in client.text()) == simulated
+        assert ("measured" in client.text()) != simulated
 
 
 def test_a_frame_that_cannot_be_shown_is_said_and_not_the_last_one_again(client):
@@ -119,3 +137,39 @@ def test_a_frame_that_cannot_be_shown_is_said_and_not_the_last_one_again(client)
     panel.show(snapshot(pair=None))
     assert "This frame cannot be shown." in client.text()
     assert "Moving" not in client.text()
+
+
+def unassigned(source: NDArray[np.float64], target: NDArray[np.float64], **parameters: Any) -> str:
+    """What is said of a pair of clouds."""
+    chosen = Parameters(**parameters)
+    pair = Estimates().estimated(fake_opened(), 20, chosen)
+    flow = estimate_scene_flow(source, target, 8 / 15, chosen)
+    assert flow.moving.any()
+    return note_on(replace(pair, flow=flow, truth=pair.truth), chosen)
+
+
+def test_it_is_said_why_points_are_unassigned():
+    shift = SPEED * 8 * PERIOD
+    patches = [grid(c) for c in ([1, 1, 0.5], [-1, 1, 0.5], [1, -1, 0.5])]
+    moving, small = grid([0, 0.8, 0.7]), grid([-1, -1, 0.5], side=6)
+    source = np.vstack([*patches, moving, small, [[3.0, 3.0, 3.0]]])
+    target = np.vstack([*patches, moving + shift, small])
+    assert unassigned(source, target) == "Unassigned: 1 in no cluster, 36 in clusters below N_min."
+    gone = np.vstack([*patches, moving + shift, small + np.array([0.3, 0.0, 0.0])])
+    assert "36 in clusters that ICP did not match" in unassigned(source, gone, n_min=10)
+    assert unassigned(source[:400], target[:400]) == ""
+
+
+@pytest.mark.usefixtures("methods_of_a_test")
+def test_of_a_method_without_clusters_it_is_not_said_why():
+    def drift(window: Window, _: Parameters) -> SceneFlow:
+        velocity = np.tile(SPEED, (len(window.source.points), 1))
+        velocity[:50] = np.nan
+        return scene_flow_of_points(velocity)
+
+    register(Method("drift", drift))
+    parameters = Parameters(method="drift")
+    pair = Estimates().estimated(fake_opened(), 20, parameters)
+    assert pair.flow is not None
+    assert pair.flow.moving.sum() == 450
+    assert note_on(pair, parameters) == ""

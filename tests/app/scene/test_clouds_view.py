@@ -2,6 +2,7 @@ import numpy as np
 
 from app.scene.arrows import linear
 from app.scene.clouds_view import CloudsView, arrows
+from app.scene.drawn_flow import DrawnFlow
 from app.scene.palettes import PAPER, palette
 from app.scene.scene_root import FIXED
 
@@ -16,14 +17,14 @@ def test_arrows_leave_out_what_cannot_be_drawn():
 
 
 def test_no_flow_draws_no_arrow(client):
-    view = CloudsView(client.scene, PALETTE)
-    view.show_flow(np.zeros((1, 3)), np.ones((1, 3)), GREEN[:1])
-    view.show_flow(np.zeros((1, 3)), np.full((1, 3), np.nan), GREEN[:1])
+    view = CloudsView(client.scene)
+    view.show_flow(DrawnFlow(np.zeros((1, 3)), np.ones((1, 3)), GREEN[:1]))
+    view.show_flow(DrawnFlow(np.zeros((1, 3)), np.full((1, 3), np.nan), GREEN[:1]))
     assert client.node(f"{FIXED}/flow").points.shape == (0, 2, 3)
 
 
 def test_truth_is_one_arrow_or_none(client):
-    view = CloudsView(client.scene, PALETTE)
+    view = CloudsView(client.scene)
     node = client.node(f"{FIXED}/truth")
     view.show_truth(np.array([1.0, 2, 3]), np.array([0, 0, 0.1]), PALETTE.truth)
     np.testing.assert_allclose(node.points, [[[1, 2, 3], [1, 2, 3.1]]], atol=1e-6)
@@ -33,13 +34,13 @@ def test_truth_is_one_arrow_or_none(client):
 
 
 def test_arrows_keep_their_own_colours(client):
-    view = CloudsView(client.scene, PALETTE)
-    view.show_flow(np.zeros((2, 3)), np.array([[np.nan] * 3, [1, 0, 0]]), GREEN)
+    view = CloudsView(client.scene)
+    view.show_flow(DrawnFlow(np.zeros((2, 3)), np.array([[np.nan] * 3, [1, 0, 0]]), GREEN))
     assert client.node(f"{FIXED}/flow").colors.tolist() == [[linear(GREEN[1]).tolist()] * 2]
 
 
 def test_what_moves_is_drawn_apart_from_what_does_not(client):
-    view = CloudsView(client.scene, PALETTE)
+    view = CloudsView(client.scene)
     points, moving = np.arange(6.0).reshape(2, 3), np.array([True, False])
     view.source.show(points, GREEN, moving)
     view.target.show(points, GREEN, ~moving)
@@ -49,7 +50,7 @@ def test_what_moves_is_drawn_apart_from_what_does_not(client):
 
 
 def test_sizes_follow_the_height_of_the_picture(client):
-    view = CloudsView(client.scene, PALETTE)
+    view = CloudsView(client.scene)
     view.size_static(0.5)
     view.fit(height=3.0, point_size=0.01)
     source, flow = client.node(f"{FIXED}/source"), client.node(f"{FIXED}/flow")

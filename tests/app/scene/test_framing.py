@@ -6,6 +6,7 @@ import pytest
 
 from app.scene.camera import Camera
 from app.scene.framing import Framing
+from app.scene.views import ABOVE, SLANTED
 
 SOMEWHERE = Camera((5.0, 6.0, 7.0), (0.0, 0.0, 0.0), 0.7)
 PAIR = cast(Any, SimpleNamespace(target=SimpleNamespace(points=np.ones((5, 3)))))
@@ -49,14 +50,14 @@ def framing(scene, window):
 def test_a_view_is_taken_anew_when_the_picture_gets_narrower(framing, scene, window):
     framing.begin(PAIR)
     framing.adapt_to_window(PAIR)
-    assert scene.taken == [("3D", 1.5)]
+    assert scene.taken == [(SLANTED, 1.5)]
     window.image_width = 600
     framing.adapt_to_window(PAIR)
-    assert scene.taken == [("3D", 1.5), ("3D", 0.75)]
-    framing.set_view(PAIR, "Top")
+    assert scene.taken == [(SLANTED, 1.5), (SLANTED, 0.75)]
+    framing.set_view(PAIR, ABOVE)
     window.image_width = 1200
     framing.adapt_to_window(PAIR)
-    assert scene.taken[-2:] == [("Top", 0.75), ("Top", 1.5)]
+    assert scene.taken[-2:] == [(ABOVE, 0.75), (ABOVE, 1.5)]
 
 
 def test_where_there_was_nothing_to_see_the_first_view_waits_for_something(framing, scene):
@@ -87,3 +88,14 @@ def test_where_it_is_told_to_stand_it_stays_and_the_next_recording_begins_anew(
     assert scene.taken == []
     framing.begin(PAIR)
     np.testing.assert_allclose(scene.now.position, (2.0 / 0.75, 0.0, 1.0))
+
+
+def test_a_view_of_a_turned_sensor_is_turned_and_the_next_view_upright(framing, scene, window):
+    framing.begin(PAIR)
+    framing.look(SOMEWHERE, up=(0.0, 1.0, 0.0))
+    assert (scene.now, window.up_direction) == (SOMEWHERE, (0.0, 1.0, 0.0))
+    window.image_width = 600
+    framing.adapt_to_window(PAIR)  # it is no named view
+    assert scene.now == SOMEWHERE
+    framing.set_view(PAIR, "Top")
+    assert window.up_direction == (0.0, 0.0, 1.0)

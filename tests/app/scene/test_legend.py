@@ -41,7 +41,7 @@ def test_it_says_what_is_drawn(pair):
         "Target",
         FLOW,
         "True displacement",
-        "Truth ghost",
+        "True object",
     ]
     fewer = ViewSettings(layers=frozenset(LAYERS) - {"Target", "Flow"}, static_scene=HIDDEN)
     assert not {"Source: stationary", "Target", FLOW} & set(texts(pair, fewer))

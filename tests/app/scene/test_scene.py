@@ -8,16 +8,16 @@ from app.scene.arrows import linear
 from app.scene.camera import Camera
 from app.scene.clouds_view import (
     FLOW_NODE,
-    GHOST_NODE,
     SOURCE_NODE,
     STATIC_SOURCE_NODE,
     STATIC_TARGET_NODE,
     TARGET_NODE,
 )
+from app.scene.floor import GRID
 from app.scene.flow_colours import faded
 from app.scene.palettes import COLOUR_BLIND, PAPER, palette
 from app.scene.scene import Scene
-from app.scene.scene_root import FIXED, GRID
+from app.scene.scene_root import FIXED
 from app.scene.settings import (
     BY_CLUSTER,
     BY_DIRECTION,
@@ -27,7 +27,10 @@ from app.scene.settings import (
     SHOWN,
     ViewSettings,
 )
+from app.scene.theme import background
+from app.scene.true_object import TRUE_OBJECT
 from estimator import Label, Parameters
+from recordings import ObjectMesh
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
 
 COLOURS = palette(PAPER, dark=False)
@@ -52,7 +55,7 @@ def colours(client, node):
 
 
 def faint(*wanted):
-    return sorted(faded(np.array(wanted), dark=False).tolist())
+    return sorted(faded(np.array(wanted), background(dark=False)).tolist())
 
 
 def test_what_moves_stands_out_from_a_dimmed_scene(scene, client, pair):
@@ -115,12 +118,34 @@ def test_sensors_that_see_something_moving_are_highlighted(scene, client, pair):
     assert frustum.thickness < thick
 
 
-def test_the_ghost_is_where_the_truth_says_that_the_source_is_now(scene, client, pair):
+def test_points_stand_for_the_true_object_where_its_surface_is_not_known(scene, client, pair):
     moving = pair.source.points[pair.truly_moving]
     expected = moving + SPEED * PERIOD * 8
-    np.testing.assert_allclose(client.node(GHOST_NODE).points, expected, atol=1e-5)
+    node = f"{TRUE_OBJECT}/points"
+    np.testing.assert_allclose(client.node(node).points, expected, atol=1e-5)
     scene.show(replace(pair, truth=None))
-    assert len(client.node(GHOST_NODE).points) == 0
+    assert len(client.node(node).points) == 0
+
+
+def test_the_true_object_is_drawn_where_it_is(client):
+    recording = fake_recording()
+    corners = np.eye(3, dtype=np.float32)
+    recording.object_meshes = {"target": ObjectMesh(corners, np.array([[0, 1, 2]], np.uint32))}
+    scene, surface = Scene(client, ViewSettings()), f"{TRUE_OBJECT}/0_target"
+    scene.open(recording)
+    for frame in (20, 25):
+        pair = Estimates().estimated(fake_opened(recording), frame, Parameters())
+        scene.show(pair)
+        assert client.node(surface).visible
+        here = np.array([0.0, 0.8, 0.7]) + SPEED * PERIOD * frame
+        np.testing.assert_allclose(client.node(surface).position, here)
+        assert len(client.node(f"{TRUE_OBJECT}/points").points) == 0
+    assert "True object" in [entry.text for entry in scene.legend.entries]
+    scene.show(replace(pair, object_poses={"target": np.full((4, 4), np.nan)}))
+    assert not client.node(surface).visible
+    assert len(client.node(f"{TRUE_OBJECT}/points").points) > 0
+    scene.open(fake_recording())
+    assert client.scene.get_handle_by_name(surface) is None
 
 
 @pytest.mark.parametrize("shown", [BY_SPEED, BY_DIRECTION, BY_CLUSTER])
@@ -191,3 +216,17 @@ def test_a_frame_with_a_picked_cluster_sends_the_source_once(scene, client, pair
     (moving,) = [c for c in pair.flow.clusters if c.label == Label.MOVING]
     scene.show(pair, picked=moving)
     assert drawn == [len(pair.source.points) - len(moving.source)]
+
+
+def test_the_label_of_a_picked_cluster_stays_in_view(scene, client, pair):
+    wall = next(c for c in pair.flow.clusters if c.label != Label.MOVING)
+    points = pair.source.points[wall.source]
+    seen = points[0]
+    eye = seen + np.array([0.0, -0.3, 0.0])
+    scene.set_camera(Camera(tuple(eye.tolist()), tuple(seen.tolist()), 0.3))
+    scene.mark(pair, wall)
+    label = client.node(f"{FIXED}/picked/label")
+    assert np.linalg.norm(label.position - seen) < 0.1
+    far = Camera((0.0, -9.0, 0.0), tuple(points.mean(axis=0).tolist()), 0.7)
+    scene.set_camera(far)
+    assert np.linalg.norm(label.position - seen) > 0.1

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
+from app.scene.palettes import PAPER, palette
 from app.scene.scene_root import FIXED
-from app.scene.sensors_view import SensorsView, half_extents
+from app.scene.sensors_view import FRUSTUMS, SensorsView, half_extents
 from robot_assets import SensorModel, load_rig
 from tests.app.fake_recordings import fake_recording
 
@@ -46,3 +47,14 @@ def test_a_rig_has_a_frustum_per_sensor_and_a_band_per_ring(client):
     view.remove()
     left = [n for n in client.scene._handle_from_node_name if n.endswith(("/ring", "/body"))]
     assert left == []
+
+
+def test_frustums_in_which_something_moves_have_faint_faces(client):
+    view = SensorsView(client.scene, fake_recording().sensors)
+    faces = client.node(f"{FRUSTUMS}/0_front/faces")
+    assert not faces.visible
+    view.highlight([0], palette(PAPER, dark=False))
+    assert faces.visible
+    assert faces.opacity < 0.2
+    view.highlight([], palette(PAPER, dark=False))
+    assert not faces.visible

@@ -1,7 +1,8 @@
 import numpy as np
+import pytest
 import trimesh
 
-from app.scene.shapes import ring_through, robot_shape
+from app.scene.shapes import coarse, ring_through, robot_shape
 from robot_assets import load_robot
 
 
@@ -11,12 +12,12 @@ def test_the_pandas_shape_is_light_coloured_and_complete():
     assert set(shape.links) == set(robot.visual_meshes)
     parts = [part for parts in shape.links.values() for part in parts]
     size = sum(part.vertices.nbytes + part.faces.nbytes for part in parts)
-    assert size < 4e6
+    assert size < 2e6  # half of the faces
     assert len({part.colour for part in parts}) > 3
     for link, mesh in robot.visual_meshes.items():
-        assert sum(len(part.faces) for part in shape.links[link]) >= 0.99 * len(mesh.faces)
+        assert sum(len(part.faces) for part in shape.links[link]) >= 0.49 * len(mesh.faces)
         points = np.vstack([part.vertices for part in shape.links[link]])
-        np.testing.assert_allclose([points.min(0), points.max(0)], mesh.bounds, atol=1e-5)
+        np.testing.assert_allclose([points.min(0), points.max(0)], mesh.bounds, atol=1e-3)
 
 
 def test_equal_robots_have_equal_digests():
@@ -47,3 +48,13 @@ def test_the_band_passes_close_to_the_points_of_a_tilted_circle():
 
 def test_two_points_make_no_band():
     assert ring_through(np.zeros((2, 3))) is None
+
+
+def test_a_coarse_surface_has_fewer_triangles_on_the_same_place():
+    ball = trimesh.creation.icosphere(5, 0.5)
+    vertices, faces = coarse(ball.vertices.astype(np.float32), ball.faces.astype(np.uint32), 0.1)
+    assert 100 < len(faces) < len(ball.faces) / 10
+    assert faces.max() < len(vertices)
+    np.testing.assert_allclose(np.linalg.norm(vertices, axis=1), 0.5, atol=0.02)
+    volume = trimesh.Trimesh(vertices, faces).volume
+    assert volume == pytest.approx(ball.volume, rel=0.06)

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from app.analysis.estimates import Estimates
+from app.scene.drawn_flow import moving_ends
 from app.scene.first_view import View
 from app.scene.lens import Lens
-from app.scene.views import FIT, FRONT, ROBOT, THREE_D, TOP, Projection, named_view
+from app.scene.views import ABOVE, FIT, FRONT, SENSORS, SLANTED, Projection, named_view
 from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 
@@ -32,7 +33,15 @@ def in_picture(view, points, projection=FILM):
 
 @pytest.mark.parametrize(
     ("name", "aspect"),
-    [(TOP, 0.6), (TOP, 1.5), (TOP, 2.5), (FRONT, 0.6), (FRONT, 1.5), (FRONT, 2.5), (THREE_D, 1.5)],
+    [
+        (ABOVE, 0.6),
+        (ABOVE, 1.5),
+        (ABOVE, 2.5),
+        (FRONT, 0.6),
+        (FRONT, 1.5),
+        (FRONT, 2.5),
+        (SLANTED, 1.5),
+    ],
 )
 def test_what_moves_is_in_the_picture(pair, name, aspect):
     projection = Projection(FILM.fov, aspect)
@@ -41,7 +50,7 @@ def test_what_moves_is_in_the_picture(pair, name, aspect):
     assert in_picture(view, moving, projection).mean() > 0.9
 
 
-@pytest.mark.parametrize("name", [TOP, FRONT, THREE_D])
+@pytest.mark.parametrize("name", [ABOVE, FRONT, SLANTED])
 def test_the_ends_of_arrows_are_in_the_picture(pair, name):
     slow, fast = pair, replace(pair, flow=replace(pair.flow, velocity=40 * pair.flow.velocity))
     moving = pair.source.points[pair.flow.moving]
@@ -53,7 +62,7 @@ def test_the_ends_of_arrows_are_in_the_picture(pair, name):
 
 
 def test_top_looks_down_with_y_up_in_the_picture(pair):
-    view = named_view(TOP, pair, np.eye(3), FILM)
+    view = named_view(ABOVE, pair, np.eye(3), FILM)
     way = view.look_at - view.position
     assert way[2] < 0
     np.testing.assert_allclose(way[:2] / way[2], 0.0, atol=2e-3)
@@ -67,7 +76,7 @@ def test_front_looks_back_along_x(pair):
 
 
 def test_from_the_robot_a_sensor_looks_at_what_moves(pair):
-    view = named_view(ROBOT, pair, np.eye(3), FILM)
+    view = named_view(SENSORS, pair, np.eye(3), FILM)
     sensor = pair.target.T_fixed_sensor[0]
     np.testing.assert_allclose(view.position, sensor[:3, 3] + 0.01 * sensor[:3, 2])
     moving = pair.source.points[pair.truly_moving]
@@ -90,7 +99,7 @@ def test_fit_shows_what_moves_or_else_all_and_keeps_the_direction(pair, moves):
 
 def test_from_the_robot_without_motion_the_sensor_that_sees_most_looks_along_its_axis(pair):
     still = replace(pair, flow=None)
-    view = named_view(ROBOT, still, np.eye(3), FILM)
+    view = named_view(SENSORS, still, np.eye(3), FILM)
     seen = np.bincount(pair.target.sensor)
     sensor = pair.target.T_fixed_sensor[int(seen.argmax())]
     np.testing.assert_allclose(view.position, sensor[:3, 3] + 0.01 * sensor[:3, 2])
@@ -98,7 +107,17 @@ def test_from_the_robot_without_motion_the_sensor_that_sees_most_looks_along_its
     np.testing.assert_allclose(way / np.linalg.norm(way), sensor[:3, 2], atol=1e-9)
 
 
-@pytest.mark.parametrize("name", [ROBOT, FIT])
+def test_fit_is_as_tight_as_what_moves_is_small(pair):
+    narrow, wide = Projection(FILM.fov, 0.5), Projection(FILM.fov, 2.0)
+    seen = np.vstack(moving_ends(pair))
+    for projection in (narrow, wide):
+        view = named_view(FIT, pair, np.eye(3), projection)
+        assert in_picture(view, seen, projection).mean() > 0.95
+        closer = View(view.look_at + 0.4 * (view.position - view.look_at), view.look_at)
+        assert not in_picture(closer, seen, projection).all()
+
+
+@pytest.mark.parametrize("name", [SENSORS, FIT])
 def test_views_turn_with_the_drawing(pair, name):
     turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     before = View(np.array([3.0, 1.0, 2.0]), np.zeros(3))

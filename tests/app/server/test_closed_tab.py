@@ -20,6 +20,7 @@ from app.session.reload import Reloads
 from app.session.workbench import Workbench
 from estimator import Parameters
 from robot_assets import load_rig, load_robot
+from tests.app.drawn import shown_frame
 from tests.app.fake_recordings import fake_recording
 from tests.app.waiting import until
 from tests.app.wire_client import WireClient
@@ -34,10 +35,14 @@ OF_ONE_CLIENT = (
 REMEMBERED = {
     "app.analysis.estimates",
     "app.analysis.cache",
+    "app.analysis.catalogue",
     "app.analysis.pairs",
     "app.analysis.survey",
     "app.analysis.comparison",
 }
+
+
+_ENDING = ("session", "surveys", "catalogue")
 
 
 class Seen:
@@ -47,8 +52,8 @@ class Seen:
         self.pictures = 0
 
     def listen(self, _, message):
-        updates = message.get("updates", {})
-        self.pictures += "Moving" in str(updates.get("content", ""))
+        # Recording, frame and parameters, which are said once they are drawn.
+        self.pictures += "tofscope.corner.show(" in str(message.get("source", ""))
 
 
 @pytest.fixture
@@ -104,7 +109,7 @@ def made(monkeypatch) -> list[weakref.ref]:
 
 def busy_threads() -> list:
     """Threads of sessions, and the one that goes on for a moment with what they have asked for."""
-    return [thread for thread in threading.enumerate() if thread.name in ("session", "surveys")]
+    return [thread for thread in threading.enumerate() if thread.name in _ENDING]
 
 
 def visit(server: Server, made: list[weakref.ref]) -> list[weakref.ref]:
@@ -113,14 +118,20 @@ def visit(server: Server, made: list[weakref.ref]) -> list[weakref.ref]:
     seen = Seen()
     with WireClient(server.address, seen.listen) as client:
         until(lambda: seen.pictures)
-        for label, value in (("δ", 0.03), ("Frame", 30), ("Recording", "b"), ("Dark", True)):
+        for act in (
+            lambda: client.change("δ", 0.03),
+            lambda: client.tell("seek", {"frame": 30}),
+            lambda: client.tell("recordings.choose", {"label": "b"}),
+        ):
             drawn = seen.pictures
-            client.change(label, value)
-            if label != "Dark":
-                until(lambda drawn=drawn: seen.pictures > drawn)
+            act()
+            until(lambda drawn=drawn: seen.pictures > drawn, 60)  # loads what all use
+        client.tell("recordings.look", {})
+        client.change("Dark", True)
+        client.tell("mark", {"frame": 3, "text": "here"})
         client.trigger("Compare: switch between A and B")
         client.trigger("Play or pause")
-        until(lambda: client.value("Frame") > 20)
+        until(lambda: (shown_frame(client) or 0) > 20)
         assert {Session, Workbench, Page, Scene, viser.ClientHandle} <= {type(m()) for m in made}
     return list(made)
 

@@ -1,5 +1,6 @@
 """A server whose clients send whatever they like, while others work."""
 
+import json
 import logging
 import os
 import random
@@ -22,15 +23,16 @@ class Page:
     """Texts that a client has been sent."""
 
     def __init__(self):
-        self.texts, self.options, self.removed = [], {}, []
+        self.texts, self.listed, self.removed = [], [], []
 
     def __call__(self, _, message):
         props = message.get("props", {})
         if message["type"] == "NotificationShowMessage":
             self.texts.append(props["body"])
-        if "options" in props:
-            self.options[props["label"]] = props["options"]
+        if "recordings.fill(" in (script := message.get("source", "")):
+            self.listed, _ = json.loads(f"[{script.split('fill(')[1].removesuffix(');')}]")
         self.texts.append(str(message.get("updates", {}).get("content", "")))
+        self.texts.append(message.get("source", ""))
 
     def has(self, text):
         return any(text in said for said in self.texts)
@@ -54,12 +56,14 @@ def test_a_recording_whose_name_is_no_text_opens(server):
     page = Page()
     with WireClient(server.address, page) as client:
         until(lambda: page.has("Moving"))
-        (label,) = [option for option in page.options["Recording"] if option != "a"]
+        client.tell("recordings.look", {})
+        until(lambda: len(page.listed) == 2)
+        (label,) = [listed for listed in page.listed if listed != "a"]
         assert label == r"\xff\xed\xa0\x80"
         page.texts.clear()
-        client.change("Recording", label)
+        client.tell("recordings.choose", {"label": label})
         until(lambda: page.has("Moving"))
-        assert client.value("Recording") == label
+        assert page.has(f'aria-label="Recording: {label}"')
 
 
 def noise(seed: int, uuids: list[str]) -> list[bytes]:
@@ -102,11 +106,11 @@ def test_noise_prints_no_traceback_and_touches_nobody_else(server, caplog, capfd
             named = [*client._uuids.items(), *client._commands.items()]
             for data in noise(seed, [uuid for label, uuid in named if "Save" not in label]):
                 client._socket.send(data)
-            client.change("Recording", "a")
-            client.change("Frame", 30)
-            until(lambda: hostile.has("Frame 30 of"))  # its session goes on, too
-        bystander.change("Frame", 29)
-        until(lambda: page.has("Frame 29 of"))
+            client.tell("recordings.choose", {"label": "a"})
+            client.tell("seek", {"frame": 30})
+            until(lambda: hostile.has("timeline.frame(30)"))  # its session goes on, too
+        bystander.tell("seek", {"frame": 29})
+        until(lambda: page.has("timeline.frame(29)"))
         assert not page.has("unexpected")
     assert not hostile.has("unexpected")
     assert not [r.getMessage() for r in caplog.records if r.levelno >= logging.ERROR]

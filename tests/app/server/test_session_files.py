@@ -26,36 +26,101 @@ def test_a_screenshot_is_named_after_recording_and_frame(session, client):
     assert content.startswith(b"\x89PNG")
 
 
-def test_both_views_of_a_size_are_one_picture_that_says_what_it_shows(session, client):
-    client.change("Size", "1280 x 720")
-    client.change("Scale", "2x")
-    asked = []
+def rendered(client, asked):
+    """Let the client render nothing, and note the sizes of the pictures and of points."""
 
     def render(height, width, **_):
         asked.append((width, height, client.node(f"{FIXED}/source").point_size))
         return np.zeros((height, width, 4), dtype=np.uint8)
 
     client.get_render = render
+
+
+def test_views_of_a_size_are_one_picture_that_says_what_it_shows(session, client):
+    client.change("Size", "1280 x 720")
+    client.change("Views", "Slanted and from above")
+    asked = []
+    rendered(client, asked)
     before = client.node(f"{FIXED}/source").point_size
-    client.press("Save 3D and top view")
+    client.press("Save screenshot")
     until(lambda: client.downloads)
     name, content = client.downloads[0]
-    assert name == "a_frame_0024_3d_top.png"
+    assert name == "a_frame_0024_slanted_from_above.png"
     picture = Image.open(io.BytesIO(content))
-    assert picture.size == (2 * 2560, 1440)
+    assert picture.size == (2560, 720)
     assert picture.info["Recording"] == "a"
     assert picture.info["Frame"].startswith("24 of 39")
     assert from_text(picture.info["Parameters"], name) == Parameters()
-    assert [a[:2] for a in asked if a[0] > 8] == [(2560, 1440)] * 2
+    large = [size for size in asked if size[0] > 8]
+    assert len(large) == 2
+    assert large[0][:2] == large[1][:2]
+    assert 1200 < large[0][0] < 1280, "there is no gap between the views"
     # The window is 60 pixels high: in a larger picture points have to be as much larger.
-    assert asked[-1][2] > 10 * before
+    assert asked[-1][2] > 3 * before
     until(lambda: client.node(f"{FIXED}/source").point_size == pytest.approx(before))
     assert len(points(client, "source")) + len(points(client, "static_source")) == 500
 
 
+def test_a_figure_for_print_has_its_size_on_paper_in_a_picture_and_in_a_drawing(session, client):
+    client.change("Size", "88 x 62 mm")
+    client.change("dpi", 600)
+    rendered(client, [])
+    client.press("Save screenshot")
+    until(lambda: client.downloads)
+    picture = Image.open(io.BytesIO(client.downloads.pop()[1]))
+    assert picture.size == (2079, 1465)
+    assert picture.info["dpi"][0] == pytest.approx(600, rel=1e-3)
+    client.press_option("Vector", "SVG")
+    until(lambda: client.downloads)
+    name, content = client.downloads.pop()
+    assert name == "a_frame_0024.svg"
+    assert b'width="249.4' in content
+    assert b"True displacement" in content
+
+
+def test_an_own_size_that_cannot_be_drawn_is_refused(session, client):
+    client.change("Size", "Own size, mm")
+    client.change("Own width", 3000)
+    for button in ("PDF", "SVG"):
+        client.press_option("Vector", button)
+        until(lambda: any("must be 10 to 1000 mm, got 3000" in n for n in client.notifications))
+    client.press("Save screenshot")
+    assert not client.downloads
+
+
+def test_the_flow_of_a_frame_and_of_the_range_are_files(session, client):
+    client.press_option("Flow data", "CSV")
+    until(lambda: client.downloads)
+    name, content = client.downloads.pop()
+    assert name == "a_frame_0024_flow.csv"
+    assert content.decode().splitlines()[3].startswith("x,y,z,vx,vy,vz,label,cluster,sensor,zone")
+    client.press_option("Flow of range", "NPZ")
+    until(lambda: client.downloads)
+    name, content = client.downloads.pop()
+    assert name == "a_frames_0000_0039_flow.npz"
+    with np.load(io.BytesIO(content)) as arrays:
+        np.testing.assert_array_equal(arrays["frames"], range(8, 40))
+
+
+def test_a_video_of_the_range_is_made_in_the_background(session, client, monkeypatch):
+    made = []
+
+    def video(animation, kind, speed, estimates, progress):
+        made.append((list(animation.frames), kind, speed, animation.figure.views))
+        progress(0)
+        return b"GIF89a"
+
+    monkeypatch.setattr("app.panels.figure_exports.video", video)
+    client.change("Views", "From above")
+    client.press_option("Video", "GIF")
+    until(lambda: client.downloads)
+    assert client.downloads == [("a.gif", b"GIF89a")]
+    assert made == [(list(range(40)), "gif", 1.0, ("From above",))]
+
+
 def test_saved_parameters_are_those_in_use(session, client):
     client.change("δ", 0.3)
-    client.press("Save as a file")
+    client.press("Save parameters as a file")
     until(lambda: client.downloads)
     name, content = client.downloads[0]
     assert name == "parameters.json"
@@ -89,7 +154,7 @@ def test_a_white_picture_of_a_dark_page_has_the_colours_for_white(session, clien
     client.press("Save screenshot")
     until(lambda: len(client.downloads) == 2)
     assert seen[-1] == dark
-    assert Image.open(io.BytesIO(client.downloads[1][1])).getpixel((5, 5)) == (20, 20, 20)
+    assert Image.open(io.BytesIO(client.downloads[1][1])).getpixel((5, 5)) == (22, 24, 28)
 
 
 def test_a_screenshot_that_fails_is_told(session, client):
@@ -103,8 +168,8 @@ def test_an_export_goes_on_when_another_recording_is_opened(session, client, sha
     client.press("Save offline page")
     until(lambda: "Drawing frame by frame." in client.notifications)
     start = time.monotonic()
-    client.change("Recording", "b")
-    until(lambda: client.control("Recording").value == "b" and "Frame" in client.text())
+    client.choose("b")
+    until(lambda: client.recording() == "b" and "Moving" in client.text())
     until(lambda: len(shared.library._shared) == 2)
     assert time.monotonic() - start < 5
     until(lambda: client.downloads)

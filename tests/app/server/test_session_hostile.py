@@ -8,6 +8,7 @@ import pytest
 
 import app
 from app.browser.visitor import Visitor
+from tests.app.drawn import shown_frame
 from tests.app.waiting import until
 
 NUMBERS = [-1, 0, 1e9, -1e300, 1e300, 0.0, 2**63, -(2**63), 3.5, True]
@@ -18,9 +19,9 @@ OURS = str(Path(app.__file__).parent)
 
 def answered(client, session) -> None:
     """Wait until the session has applied all that was posted, and drawn it."""
-    frame = 20 if client.control("Frame").value != 20 else 21
-    client.change("Frame", frame)
-    until(lambda: f"Frame {frame} of" in client.text())
+    frame = 20 if shown_frame(client) != 20 else 21
+    client.tell("seek", {"frame": frame})
+    until(lambda: shown_frame(client) == frame)
 
 
 def send(client, control, value) -> None:
@@ -50,9 +51,26 @@ def test_no_value_of_any_control_ends_the_session_or_is_unexpected(session, clie
     assert session._thread.is_alive()
 
 
+KINDS = ("seek", "step", "play", "motion", "playback", "strip", "mark", "unmark")
+FIELDS = ("frame", "frames", "direction", "speed", "loop", "first", "last", "name", "text")
+
+
+def test_no_event_of_the_page_ends_the_session_or_is_unexpected(session, client, caplog):
+    for kind in KINDS:
+        for value in (None, *NUMBERS, *TEXTS[:4], TEXTS[-2], TEXTS[-1], *LISTS):
+            client.tell(kind, value)
+            client.tell(kind, dict.fromkeys(FIELDS, value))
+            for field in FIELDS:
+                client.tell(kind, {field: value})
+    if client.shown("timeline.playback")[0]["playing"]:
+        client.tell("play", {})
+    answered(client, session)
+    assert not [r.getMessage() for r in caplog.records if r.levelno >= logging.ERROR]
+    assert not [said for said in client.notifications if "unexpected" in said]
+    assert session._thread.is_alive()
+
+
 def test_what_is_not_among_the_options_is_told_or_left_out(session, client):
-    client.change("Speed", "0x")
-    until(lambda: any("Speed must be one of 0.1x, 0.25x" in s for s in client.notifications))
     client.change("Cluster", "x of nine")
     until(lambda: any("no cluster 'x of nine'" in said for said in client.notifications))
     answered(client, session)

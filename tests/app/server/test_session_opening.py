@@ -12,29 +12,29 @@ from app.session.commands import OpenRecording
 from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import RecordingError
-from tests.app.drawn import points
+from tests.app.drawn import points, shown_frame
 from tests.app.fake_recordings import fake_recording
 from tests.app.waiting import until
 
 
 def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
     before = points(client, "target")
-    client.change("Recording", "bad")
+    client.choose("bad")
     until(lambda: any("bad.mcap is no recording." in n for n in client.notifications))
-    until(lambda: client.control("Recording").value == "a")
+    until(lambda: client.recording() == "a")
     assert np.array_equal(points(client, "target"), before)
-    client.change("Recording", "b")
+    client.choose("b")
     until(lambda: session._shared.library._shared.keys() >= {session._shared.library.listing()[1]})
-    client.change("Frame", 12)
-    until(lambda: "Frame 12 of" in client.text())
+    client.tell("seek", {"frame": 12})
+    until(lambda: shown_frame(client) == 12)
 
 
 def test_only_what_is_listed_is_opened(session, client, folder):
     (folder / "later.mcap").touch()
     for label in ("/etc/passwd", "../a", "later"):
         session._queue.post(OpenRecording(label))
-        client.change("Frame", 20 + len(label))
-        until(lambda label=label: f"Frame {20 + len(label)} of" in client.text())
+        client.tell("seek", {"frame": 20 + len(label)})
+        until(lambda label=label: shown_frame(client) == 20 + len(label))
     assert [e.label for e in session._shared.library._shared] == ["a"]
 
 
@@ -49,10 +49,10 @@ def test_what_is_being_opened_is_said_meanwhile(client, shared, folder, runs):
 
     session = Session(client, replace(shared, library=Library([folder], opener)))
     until(lambda: "Moving" in client.text())
-    client.change("Recording", "b")
+    client.choose("b")
     assert opening.wait(10)
     until(lambda: "Opening b …" in client.text())
-    assert client.control("Recording").value == "b"
+    assert client.recording() == "b"
     go_on.set()
     until(lambda: "Opening" not in client.text())
     assert "1 sensor, 40 frames" in client.text()
@@ -97,3 +97,10 @@ def test_of_several_bad_recordings_the_first_is_told_and_the_others_are_counted(
     until(lambda: "No recording is open." in client.text())
     session.close()
     session.join(10)
+
+
+def test_another_recording_is_framed_anew_wherever_the_camera_was(session, client):
+    begun = np.array(client.camera.position)
+    client.camera.position, client.camera.look_at = np.array([9.0, 8.0, 7.0]), np.ones(3)
+    client.choose("b")
+    until(lambda: np.allclose(client.camera.position, begun, atol=1e-6))

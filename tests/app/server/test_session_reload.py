@@ -6,25 +6,29 @@ import numpy as np
 import pytest
 from viser._messages import RunJavascriptMessage, ThemeConfigurationMessage
 
+from app.analysis.comparison import B, Comparison
 from app.scene.camera import Camera
+from app.scene.palettes import COLOUR_BLIND
 from app.scene.scene_root import FIXED
+from app.scene.settings import LAYERS, ViewSettings
 from app.server.session import Session
 from app.session.links import SavedSession, from_token
 from estimator import Parameters
+from tests.app.drawn import shown_frame
 from tests.app.fake_client import FakeClient
 from tests.app.waiting import until
 
 
 def test_a_reload_finds_what_it_left_and_a_second_tab_begins_anew(session, client, shared, runs):
-    client.change("Recording", "b")
+    client.choose("b")
     client.change("δ", 0.3)
-    client.change("Frame", 33)
-    until(lambda: "Frame 33 of" in client.text() and runs.parameters[-1].delta == 0.3)
+    client.tell("seek", {"frame": 33})
+    until(lambda: shown_frame(client) == 33 and runs.parameters[-1].delta == 0.3)
     with FakeClient.on_a_server(client.local_storage) as tab:
         other = Session(tab, shared)
         until(lambda: "Moving" in tab.text())
         assert tab.control("δ").value == 0.04
-        assert tab.control("Recording").value == "a"
+        assert tab.recording() == "a"
         other.close()
         other.join(10)
 
@@ -32,17 +36,17 @@ def test_a_reload_finds_what_it_left_and_a_second_tab_begins_anew(session, clien
 def test_a_reload_restores(client, shared, runs):
     session = Session(client, shared)
     until(lambda: "Moving" in client.text())
-    client.change("Recording", "b")
+    client.choose("b")
     client.change("δ", 0.3)
     until(lambda: runs.parameters[-1].delta == 0.3)
-    client.change("Frame", 33)
-    until(lambda: "Frame 33 of" in client.text())
+    client.tell("seek", {"frame": 33})
+    until(lambda: shown_frame(client) == 33)
     session.close()
     session.join(10)
     with FakeClient.on_a_server(client.local_storage) as again:
         session = Session(again, shared)
-        until(lambda: "Frame 33 of" in again.text())
-        assert again.control("Recording").value == "b"
+        until(lambda: shown_frame(again) == 33)
+        assert again.recording() == "b"
         assert again.control("δ").value == 0.3
         session.close()
         session.join(10)
@@ -67,7 +71,7 @@ def test_a_reload_restores_camera_and_view_too(client, shared, runs):
         assert again.control("Dark").value
         assert not again.node(f"{FIXED}/robot").visible
         np.testing.assert_allclose(again.camera.position, [5.0, 6.0, 7.0])
-        again.change("Recording", "b")  # which is seen as it is seen first
+        again.choose("b")  # which is seen as it is seen first
         until(lambda: not np.allclose(again.camera.position, [5.0, 6.0, 7.0]))
         session.close()
         session.join(10)
@@ -76,9 +80,9 @@ def test_a_reload_restores_camera_and_view_too(client, shared, runs):
 def test_a_reload_restores_playback_and_comparison(client, shared, runs):
     session = Session(client, shared)
     until(lambda: "Moving" in client.text())
-    client.change("Speed", "0.5x")
-    client.change("Loop", True)
-    client.change("Range", (5, 30))
+    client.tell("playback", {"speed": 0.5, "loop": False})
+    client.tell("playback", {"first": 5, "last": 30})
+    client.tell("strip", {"name": "speed"})
     client.press("Copy A to B")
     until(lambda: "<b>B</b> is shown" in client.text())
     client.change("δ", 0.3)
@@ -88,9 +92,11 @@ def test_a_reload_restores_playback_and_comparison(client, shared, runs):
     with FakeClient.on_a_server(client.local_storage) as again:
         session = Session(again, shared)
         until(lambda: "<b>B</b> is shown" in again.text())
-        assert again.control("Speed").value == "0.5x"
-        assert again.control("Loop").value
-        assert tuple(again.control("Range").value) == (5, 30)
+        until(lambda: again.shown("timeline.quantity"))
+        assert again.shown("timeline.playback") == [
+            {"playing": False, "first": 5, "last": 30, "speed": 0.5, "loop": False}
+        ]
+        assert again.shown("timeline.quantity")[0]["chosen"] == "speed"
         assert again.control("δ").value == 0.3
         again.press("Switch to A")
         until(lambda: again.control("δ").value == 0.04)
@@ -110,8 +116,8 @@ def arrive(client, shared, token):
 def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, runs):
     camera = Camera((1.0, 2.0, 3.0), (0.5, 0.25, 0.0), 0.7)
     arrive(client, shared, SavedSession("b", 31, Parameters(n=5, delta=0.01), camera).token())
-    assert client.control("Recording").value == "b"
-    assert client.control("Frame").value == 31
+    assert client.recording() == "b"
+    assert shown_frame(client) == 31
     assert set(runs.parameters) == {Parameters(n=5, delta=0.01)}
     assert tuple(client.camera.position) == camera.position
     assert tuple(client.camera.look_at) == camera.look_at
@@ -119,9 +125,34 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
     # What was left is found again, and not the link.
     with FakeClient.on_a_server(client.local_storage) as again:
         session = Session(again, shared)
-        until(lambda: "Frame 31 of" in again.text())
+        until(lambda: shown_frame(again) == 31)
         session.close()
         session.join(10)
+
+
+def test_a_link_leads_to_the_whole_comparison_the_view_and_the_picked_cluster(client, shared, runs):
+    view = ViewSettings(colours=COLOUR_BLIND, layers=frozenset(LAYERS) - {"Robot"})
+    comparison = Comparison(Parameters(method="baseline"), edited=B, both=True)
+    saved = SavedSession(
+        *("b", 31, Parameters(n=5)),
+        settings=view,
+        comparison=comparison,
+        picked=2,
+        plotted_pair=("moving", "angle_deg"),
+    )
+    client.link = saved.token()
+    session = Session(client, shared)
+    until(lambda: "<b>B</b> is shown" in client.text(), timeout=30)
+    until(lambda: "n: 8 → 5" in client.text())
+    assert "method: baseline → paper" in client.text()
+    assert client.control("Draw both").value
+    until(lambda: client.control("Plot").value == "Angle deviation [°]")
+    assert client.control("against").value == "Moving points"
+    until(lambda: client.control("Cluster").value.startswith("2 "))
+    assert not client.control("Robot").value
+    assert client.control("Frustums").value
+    session.close()
+    session.join(10)
 
 
 @pytest.mark.parametrize(
@@ -142,7 +173,7 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
 def test_a_link_that_leads_nowhere_is_told(client, shared, runs, token, sentence):
     arrive(client, shared, token)
     assert any(sentence in said for said in client.notifications)
-    assert client.control("Recording").value == "a"
+    assert client.recording() == "a"
     assert set(runs.parameters) == {Parameters()}
 
 
@@ -171,8 +202,8 @@ def test_whatever_a_tab_keeps_a_session_begins(client, shared, runs, kept):
 
 def test_the_link_that_is_copied_leads_here(session, client):
     client.change("δ", 0.3)
-    client.change("Frame", 30)
-    until(lambda: "Frame 30 of" in client.text())
+    client.tell("seek", {"frame": 30})
+    until(lambda: shown_frame(client) == 30)
     client.take_sent()
     client.press("Copy link")
     until(lambda: client.notifications)

@@ -26,7 +26,9 @@ class Drawn:
     def listen(self, _, message):
         updates = message.get("updates", {})
         self.arrows += message.get("name") == FLOW_NODE and "points" in updates
-        found = re.search(r"Interval</span><span[^>]*>([0-9.]+) s", str(updates.get("content")))
+        found = re.search(
+            r"Δt of the pair</span><span[^>]*>([0-9.]+) s", str(updates.get("content"))
+        )
         if found:
             self.intervals.append(float(found[1]))
 

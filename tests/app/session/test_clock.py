@@ -1,22 +1,31 @@
+from collections.abc import Iterable
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import InputError
-from app.session.clock import LONGEST_WAIT, Playback, PlaybackClock
+from app.session.clock import LONGEST_WAIT, SHORT, Playback, PlaybackClock
 
 STAMPS = [100.0, 100.1, 100.2, 100.5, 100.6]
 
 
+def once(stamps: Iterable[float] = STAMPS) -> PlaybackClock:
+    """A clock that plays a short recording once."""
+    clock = PlaybackClock(stamps)
+    clock.change({"loop": False}, 0, now=0.0)
+    return clock
+
+
 def test_it_stands_still_at_first():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     assert not clock.playing
     assert clock.wait(0, 0.0) is None
 
 
 def test_frames_come_in_the_recordings_own_time_gaps_included():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(1, now=50.0)
     assert [clock.advance(50.0 + t) for t in (0.0, 0.05, 0.11, 0.39, 0.41, 9.0)] == [
         1,
@@ -29,7 +38,7 @@ def test_frames_come_in_the_recordings_own_time_gaps_included():
 
 
 def test_who_comes_late_skips_frames():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(0, now=0.0)
     assert clock.advance(0.45) == 2
     assert clock.wait(2, 0.45) == pytest.approx(0.05)
@@ -37,7 +46,7 @@ def test_who_comes_late_skips_frames():
 
 
 def test_it_ends_at_the_last_frame():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(3, now=0.0)
     assert clock.advance(0.05) == 3
     assert clock.playing
@@ -47,7 +56,7 @@ def test_it_ends_at_the_last_frame():
 
 
 def test_twice_the_speed_takes_half_the_time():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.change({"speed": 2.0}, 0, now=0.0)
     clock.play(0, now=0.0)
     assert clock.wait(0, 0.0) == pytest.approx(0.05)
@@ -55,7 +64,7 @@ def test_twice_the_speed_takes_half_the_time():
 
 
 def test_a_change_of_speed_goes_on_from_where_it_is():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(0, now=0.0)
     for t in (0.01, 0.03, 0.05):  # in the middle between two frames
         clock.change({"speed": 0.5 if t == 0.05 else 1.0}, 0, now=t)
@@ -74,7 +83,7 @@ def test_a_loop_shows_the_last_frame_for_a_period_and_begins_again():
 
 
 def test_a_range_ends_playback_and_beyond_it_the_recording_does():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.change({"first": 1, "last": 2}, 0, now=0.0)
     clock.play(0, now=0.0)
     assert clock.advance(9.0) == 2
@@ -90,7 +99,7 @@ def test_a_range_is_kept_within_the_recording(asked, kept):
     assert (clock.playback.first, clock.playback.last) == kept
     clock.play(0, now=0.0)
     assert clock.advance(0.5) == 0
-    longer = PlaybackClock(STAMPS)
+    longer = once()
     longer.change({"first": 3, "last": 1}, 0, now=0.0)
     assert (longer.playback.first, longer.playback.last) == (1, 1)
 
@@ -104,20 +113,32 @@ def test_one_frame_loops_without_haste():
     assert clock.playing
 
 
-def test_speed_and_loop_outlive_a_recording_and_the_range_does_not():
+def test_short_recordings_loop_unless_one_chooses_otherwise():
+    short, long = np.arange(0.0, SHORT, 0.5), np.arange(0.0, SHORT + 0.5, 0.5)
+    assert PlaybackClock(short).playback == Playback(0, len(short) - 1, loop=True)
+    assert PlaybackClock(long).playback == Playback(0, len(long) - 1, loop=False)
+    clock = PlaybackClock(short)
+    clock.change({"loop": False}, 0, now=0.0)
+    assert not clock.playback.loop
+
+
+def test_the_speed_outlives_a_recording_and_range_and_loop_do_not():
+    long = np.arange(0.0, 2 * SHORT)
     clock = PlaybackClock(STAMPS)
-    clock.change({"speed": 5.0, "loop": True, "first": 2, "last": 3}, 0, now=0.0)
+    clock.change({"speed": 5.0, "first": 2, "last": 3}, 0, now=0.0)
+    assert PlaybackClock(long, like=clock.playback).playback == Playback(0, 19, 5.0, False)
+    clock.change({"loop": False}, 0, now=0.0)
     assert PlaybackClock(STAMPS[:3], like=clock.playback).playback == Playback(0, 2, 5.0, True)
 
 
 def test_a_last_frame_that_was_missed_is_still_waited_for():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(0, now=0.0)
     assert clock.wait(3, 7.0) == 0
 
 
 def test_pause_stops_time():
-    clock = PlaybackClock(STAMPS)
+    clock = once()
     clock.play(0, now=0.0)
     clock.pause()
     assert not clock.playing
@@ -131,7 +152,7 @@ def test_pause_stops_time():
 )
 def test_after_each_wait_the_next_frame_is_due(gaps, start, origin):
     stamps = 1.7e9 + np.cumsum(gaps)
-    clock = PlaybackClock(stamps)
+    clock = once(stamps)
     frame = start % len(stamps)
     now = origin
     clock.play(frame, now)

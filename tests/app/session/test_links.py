@@ -1,14 +1,19 @@
 import base64
 import json
 import re
+from dataclasses import fields
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.analysis.comparison import A, B, Comparison
+from app.analysis.quantities import QUANTITIES
 from app.errors import InputError
 from app.scene.camera import Camera
-from app.scene.settings import ViewSettings
+from app.scene.palettes import PALETTES
+from app.scene.settings import ARROW_COLOURS, LAYERS, STATIC_SCENE, ViewSettings
+from app.session.linked_view import PERSONAL, LinkedView
 from app.session.links import SavedSession, from_token
 from estimator import Parameters
 
@@ -29,17 +34,55 @@ parameters = st.builds(
 )
 
 
-@given(st.text(max_size=40), st.integers(0, 10**6), parameters, st.none() | cameras)
-def test_a_token_comes_back_as_the_same_session(label, frame, parameters, camera):
-    saved = SavedSession(label, frame, parameters, camera)
+settings = st.builds(
+    ViewSettings,
+    static_scene=st.sampled_from(STATIC_SCENE),
+    arrow_scale=st.floats(0.5, 10),
+    point_size=st.floats(1, 20),
+    arrow_colours=st.sampled_from(ARROW_COLOURS),
+    colours=st.sampled_from(PALETTES),
+    legend=st.booleans(),
+    strip=st.sampled_from(sorted(QUANTITIES)),
+    layers=st.frozensets(st.sampled_from(LAYERS)),
+)
+comparisons = st.builds(Comparison, parameters, st.sampled_from([A, B]), st.booleans())
+names = st.sampled_from(sorted(QUANTITIES))
+
+
+@given(
+    st.builds(
+        SavedSession,
+        label=st.text(max_size=40),
+        frame=st.integers(0, 10**6),
+        parameters=parameters,
+        camera=st.none() | cameras,
+        settings=settings,
+        comparison=st.none() | comparisons,
+        picked=st.none() | st.integers(0, 100),
+        plotted_pair=st.none() | st.tuples(names, names),
+    )
+)
+def test_a_token_comes_back_as_the_same_session(saved):
     token = saved.token()
     assert re.fullmatch(r"[\w-]+", token, re.ASCII)
     assert from_token(token) == saved
 
 
-def test_settings_are_everybodys_own():
-    saved = SavedSession("a", 3, Parameters(), settings=ViewSettings(dark=True))
-    assert from_token(saved.token()).settings == ViewSettings()
+def test_whether_the_page_is_dark_and_plays_is_everybodys_own():
+    saved = SavedSession("a", 3, Parameters(), settings=ViewSettings(dark=True), playing=True)
+    assert from_token(saved.token()) == SavedSession("a", 3, Parameters())
+
+
+def test_a_link_holds_every_setting_that_is_not_personal():
+    linked = {*LinkedView.model_fields} - {"hidden"} | {"layers"}
+    assert not {field.name for field in fields(ViewSettings)} - linked - PERSONAL
+
+
+def test_links_of_before_there_was_a_comparison_in_them_still_open():
+    token = made(parameters={"n": 5}, camera=[1, 2, 3, 4, 5, 6, 0.7])
+    saved = from_token(token)
+    assert saved.parameters == Parameters(n=5)
+    assert saved == SavedSession("a", 3, Parameters(n=5), Camera((1, 2, 3), (4, 5, 6), 0.7))
 
 
 def made(**changes):
@@ -68,6 +111,18 @@ def made(**changes):
         made(camera=[int("1" * 400), 2, 3, 4, 5, 6, 0.7]),
         made(camera=[int("1" * 400)] * 7),
         made(camera=[True, 2, 3, 4, 5, 6, 0.7]),
+        made(comparison={}),
+        made(comparison={"other": {}, "edited": "C", "both": True}),
+        made(comparison={"other": {}, "edited": "B", "both": 1}),
+        made(view={"colours": "pink"}),
+        made(view={"hidden": ["Walls"]}),
+        made(view={"hidden": "Robot"}),
+        made(view={"point_size": 1e9}),
+        made(view={"arrow_scale": -1.0}),
+        made(picked=-1),
+        made(picked="0"),
+        made(plotted=["time"]),
+        made(plotted=["time", "password"]),
         made(frame=True),
         made(frame=-1),
         made(frame=2.0),
@@ -91,5 +146,7 @@ def test_parameters_that_cannot_be_used_are_told():
         from_token(made(parameters={"gamma": 7}))
     with pytest.raises(InputError, match="The link: n must be a number"):
         from_token(made(parameters={"n": [[[[[5]]]]]}))
+    with pytest.raises(InputError, match="The link: gamma must be between 0 and 1"):
+        from_token(made(comparison={"other": {"gamma": 7}, "edited": "A", "both": False}))
     with pytest.raises(InputError, match="The link: speed is no parameter"):
         from_token(made(parameters={"speed": 7}))

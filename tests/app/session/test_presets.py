@@ -4,7 +4,7 @@ import pytest
 
 from app.analysis.parameter_files import load
 from app.errors import InputError
-from app.session.presets import Presets, preset_folder
+from app.session.presets import Presets, PresetUse, composed, preset_folder
 from estimator import Parameters
 
 OTHER = Parameters(n=3, delta=0.1, min_samples=5)
@@ -72,3 +72,30 @@ def test_what_is_no_preset_is_not_replaced(presets, tmp_path, linked):
     with pytest.raises(InputError, match=r"tie\.json exists and was not made by this command"):
         presets.save("tie", OTHER)
     assert file.read_bytes() == b"\x89MCAP0\r\n"
+
+
+def test_a_preset_gets_another_name_that_is_not_in_use(presets):
+    presets.save("a", OTHER)
+    presets.save("b", Parameters())
+    with pytest.raises(InputError, match="There is a preset b already"):
+        presets.rename("a", "b")
+    presets.rename("a", "c")
+    assert presets.names() == ["b", "c"]
+    assert presets.load("c") == OTHER
+    with pytest.raises(InputError, match="There is no file"):
+        presets.rename("a", "d")
+
+
+def test_letters_with_marks_are_letters_however_they_are_typed(presets):
+    presets.save(composed(" a\u0308 "), OTHER)
+    assert presets.names() == ["ä"]
+
+
+def test_a_question_is_answered_by_the_same_use_in_time():
+    asked = PresetUse("delete", "a", done=False, asked=100.0)
+    again = PresetUse("delete", "a", done=False)
+    assert again.confirms(asked, 105.0)
+    assert not again.confirms(asked, 111.0)
+    assert not again.confirms(None, 105.0)
+    assert not again.confirms(again, 105.0)
+    assert not PresetUse("delete", "b", done=False).confirms(asked, 105.0)

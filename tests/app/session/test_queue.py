@@ -28,11 +28,11 @@ def test_the_latest_command_of_a_kind_wins():
 
 def test_commands_of_different_kinds_keep_their_order():
     commands = [
-        ChangeParameters({"delta": 0.5}),
+        ChangeParameters({"delta": 0.5}, {}),
         SwitchSide(),  # to the other parameters, which the next change is meant for
-        ChangeParameters({"delta": 0.1}),
+        ChangeParameters({"delta": 0.1}, {}),
         ResetParameters(frozenset(["gamma", "delta"])),
-        ChangeParameters({"delta": 0.2}),
+        ChangeParameters({"delta": 0.2}, {}),
         ResetParameters(frozenset(["gamma"])),
     ]
     queue = CommandQueue()
@@ -94,9 +94,9 @@ def test_steps_and_frames_that_are_named_keep_their_order(commands, frame):
 
 def test_changes_of_different_parameters_are_all_kept():
     queue = CommandQueue()
-    queue.post(ChangeParameters({"delta": 0.1, "n": 3}))
-    queue.post(ChangeParameters({"delta": 0.2}))
-    assert queue.take() == [ChangeParameters({"delta": 0.2, "n": 3})]
+    queue.post(ChangeParameters({"delta": 0.1, "n": 3}, {}))
+    queue.post(ChangeParameters({"delta": 0.2}, {}))
+    assert queue.take() == [ChangeParameters({"delta": 0.2, "n": 3}, {})]
 
 
 def test_a_post_wakes_who_waits():

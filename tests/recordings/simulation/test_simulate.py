@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from estimator import Parameters, PooledErrors, estimate_scene_flow
 from recordings import Frame, open_recording, sample_paths
@@ -193,3 +195,24 @@ def test_samples_are_the_files_that_the_simulator_writes(scenario: str, tmp_path
     differences = np.abs([a - b for a, b in pairs])
     assert np.nanmedian(differences) < 6e-4
     assert np.nanmean(differences < 6e-4) > 0.99
+
+
+@pytest.mark.parametrize("scenario", ["walking", "turning"])
+def test_the_points_of_a_moving_object_lie_on_its_mesh(scenario: str, tmp_path: Path):
+    path = written(tmp_path / "x.mcap", scenario, rig=COARSE)
+    distances: list[NDArray[np.float64]] = []
+    with open_recording(path) as recording:
+        exact = frames(SCENARIOS[scenario], SCENARIOS[scenario].speeds[-1], rig=COARSE)
+        for k, frame in enumerate(exact):
+            poses, truth = recording.object_poses(k), frame.truth
+            for name, mesh in recording.object_meshes.items():
+                number = TARGET if name == "target" else int(name.removeprefix("object_"))
+                points = truth.points[truth.object == number]
+                surface = mesh.vertices @ poses[name][:3, :3].T + poses[name][:3, 3]
+                away, _ = KDTree(surface).query(points)
+                distances.append(away)
+    # A zone measures the mean of what it sees, on its centre ray.
+    away = np.concatenate(distances)
+    assert len(away) > 50
+    assert np.median(away) < 0.02
+    assert (away < 0.1).mean() > 0.95

@@ -1,0 +1,48 @@
+"""Scripts and style sheets of our own elements in the page, kept as files beside this module."""
+
+import json
+from functools import cache
+from importlib.resources import files
+
+import viser
+
+from app.browser.internals import run_script
+
+_STYLE = """
+{
+  const id = "tofscope-style-%s";
+  const style = document.getElementById(id) ?? document.createElement("style");
+  style.id = id;
+  style.textContent = %s;
+  document.head.append(style);
+}
+"""
+
+
+def run_asset(client: viser.ClientHandle, name: str) -> None:
+    """Run a script, or apply a style sheet, in the page; once more after a lost connection.
+
+    Args:
+        client: owner of the page.
+        name: of the file, such as "timeline.js" or "timeline.css".
+    """
+    text = text_of(name)
+    run_script(client, _STYLE % (name, json.dumps(text)) if name.endswith(".css") else text)
+
+
+def call(client: viser.ClientHandle, function: str, *values: object) -> None:
+    """Call a function of our scripts in the page, `window.tofscope.<function>`.
+
+    Args:
+        client: owner of the page.
+        function: its name, such as "timeline.show".
+        values: arguments that JSON can hold.
+    """
+    arguments = ", ".join(json.dumps(value, separators=(",", ":")) for value in values)
+    run_script(client, f"window.tofscope.{function}({arguments});")
+
+
+@cache
+def text_of(name: str) -> str:
+    """Text of a file beside this module, by its name."""
+    return (files("app.browser") / "assets" / name).read_text(encoding="utf-8")

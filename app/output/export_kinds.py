@@ -1,0 +1,71 @@
+"""Kinds of files that `tofscope export` writes, beside pictures and pages."""
+
+import zipfile
+from pathlib import Path
+
+from PIL import Image, UnidentifiedImageError
+
+from app.output.checks import OutputKind
+
+MADE_WITH = "Made with Tofscope"
+"""Words in the description of a file, by which it is known as Tofscope's."""
+
+FLOW_HEADING = "Tofscope flow"
+"""Beginning of a flow's CSV file, after the comment sign."""
+
+FLOW_MARK = "made_with_tofscope"
+"""Name of an array in a flow's NPZ file."""
+
+
+def _holds(path: Path, beginning: bytes) -> bool:
+    """Whether a file begins so, and says that it was made with Tofscope."""
+    content = path.read_bytes()
+    return content[: len(beginning)] == beginning and MADE_WITH.encode() in content
+
+
+def _is_pdf(path: Path) -> bool:
+    return _holds(path, b"%PDF-")
+
+
+def _is_svg(path: Path) -> bool:
+    return _holds(path, b"<?xml")
+
+
+def _is_mp4(path: Path) -> bool:
+    return _holds(path, path.read_bytes()[:4] + b"ftyp")
+
+
+def _is_gif(path: Path) -> bool:
+    try:
+        with Image.open(path) as picture:
+            comment = picture.info.get("comment", b"")
+            return picture.format == "GIF" and MADE_WITH.encode() in comment
+    except (UnidentifiedImageError, Image.DecompressionBombError):
+        return False
+
+
+def _is_flow_csv(path: Path) -> bool:
+    beginning = f"# {FLOW_HEADING};".encode()
+    with path.open("rb") as table:
+        return table.read(len(beginning)) == beginning
+
+
+def _is_flow_npz(path: Path) -> bool:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return f"{FLOW_MARK}.npy" in archive.namelist()
+    except zipfile.BadZipFile:
+        return False
+
+
+VECTORS = {kind.ending: kind for kind in (OutputKind(".pdf", _is_pdf), OutputKind(".svg", _is_svg))}
+"""`tofscope export --vector`."""
+
+VIDEOS = {kind.ending: kind for kind in (OutputKind(".mp4", _is_mp4), OutputKind(".gif", _is_gif))}
+"""`tofscope export --video`."""
+
+FLOWS = {
+    kind.ending: kind
+    for kind in (OutputKind(".csv", _is_flow_csv), OutputKind(".npz", _is_flow_npz))
+}
+"""`tofscope export --flow`."""

@@ -1,0 +1,208 @@
+"""Timeline along the bottom of the window: transport, tracks, range, marks."""
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+from pydantic import Field
+
+from app.analysis.library import Opened
+from app.analysis.quantities import QUANTITIES, Quantity
+from app.browser.assets import call, run_asset
+from app.browser.page_events import EventContent
+from app.panels.histograms import upper_limit
+from app.panels.panel import Panel, PanelContext
+from app.panels.playback_commands import ChangePlayback, JumpToMotion, add_commands
+from app.panels.tables import PLOTTED
+from app.panels.triggers import post_on
+from app.scene.colours import css
+from app.scene.palettes import Palette
+from app.session.clock import SPEEDS
+from app.session.command import LatestWins
+from app.session.commands import ChangeView, TogglePlay, seek, step
+from app.session.marks import LONGEST_NOTE
+from app.session.snapshot import Snapshot
+from app.session.workbench import Workbench
+
+_GAP = 4  # index of the categorical colour of gaps
+_MARK = 3  # of marks
+_ASSETS = ("timeline.css", "timeline_tracks.js", "timeline_marks.js", "timeline.js")
+_FRAMES = 10**9
+
+Frame = Annotated[int, Field(ge=0, lt=_FRAMES)]
+
+
+class _Nothing(EventContent):
+    """An event that says all by its kind."""
+
+
+class _Seek(EventContent):
+    frame: Frame
+
+
+class _Step(EventContent):
+    frames: Annotated[int, Field(ge=-1000, le=1000)]
+
+
+class _Motion(EventContent):
+    direction: Annotated[int, Field(ge=-1, le=1)]
+
+
+class _Playback(EventContent):
+    speed: float | None = None
+    loop: bool | None = None
+    first: Frame | None = None
+    last: Frame | None = None
+
+
+class _Strip(EventContent):
+    name: str
+
+
+class _Mark(EventContent):
+    frame: Frame
+    text: Annotated[str, Field(max_length=LONGEST_NOTE)]
+
+
+@dataclass(frozen=True)
+class PutMark:
+    """Put a mark at a frame, or remove it.
+
+    Attributes:
+        notes: {frame: its note, None to remove the mark}.
+    """
+
+    notes: dict[int, str | None]
+
+    def merged_with(self, earlier: "PutMark") -> "PutMark":
+        """Both, the later note of a frame."""
+        return PutMark({**earlier.notes, **self.notes})
+
+    def apply(self, workbench: Workbench) -> None:
+        """Keep them beside the recording."""
+        for frame, note in self.notes.items():
+            if workbench.marks is None:
+                return
+            if note is None:
+                workbench.marks.remove(frame)
+            else:
+                workbench.marks.put(frame, note)
+
+
+@dataclass(frozen=True)
+class EditMark(LatestWins):
+    """Open the card of a mark at the current frame."""
+
+    def apply(self, workbench: Workbench) -> None:
+        """Ask the page to open it."""
+        workbench.edited_mark += 1
+
+
+class TimelinePanel(Panel):
+    """Shows where in the recording the session is, and lets a person go elsewhere."""
+
+    def __init__(self, context: PanelContext) -> None:
+        self._client, post = context.client, context.post
+        self._sent: dict[str, Any] = {}
+        for name in _ASSETS:
+            run_asset(context.client, name)
+        listen = context.events.on
+        listen("play", _Nothing, lambda _: post(TogglePlay()))
+        listen("seek", _Seek, lambda content: post(seek(content.frame)))
+        listen("step", _Step, lambda content: post(step(content.frames)))
+        listen("motion", _Motion, lambda content: post(JumpToMotion((content.direction,))))
+        listen("mark", _Mark, lambda content: post(PutMark({content.frame: content.text})))
+        listen("unmark", _Seek, lambda content: post(PutMark({content.frame: None})))
+
+        def change(content: _Playback) -> None:
+            values = {name: value for name, value in content if value is not None}
+            if values.get("speed", SPEEDS[0]) in SPEEDS:
+                post(ChangePlayback(values))
+
+        def draw(content: _Strip) -> None:
+            if content.name in drawable(has_truth=True):
+                post(ChangeView({"strip": content.name}))
+
+        listen("playback", _Playback, change)
+        listen("strip", _Strip, draw)
+        gui = context.client.gui
+        add_commands(gui, post)
+        mark = gui.add_command("Mark this frame", hotkey="K", icon=viser.Icon.BOOKMARK)
+        post_on(post, EditMark(), mark)
+
+    def open(self, opened: Opened) -> None:
+        """Show the time of a newly opened recording."""
+        stamps = opened.recording.stamps
+        self._sent = {}
+        call(self._client, "timeline.open", _packed(stamps - stamps[0]), SPEEDS)
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Show the frame, playback, and what is known of the recording."""
+        timeline, playback, settings = snapshot.timeline, snapshot.playback, snapshot.settings
+        self._send("colours", _colours(settings.palette))
+        self._send(
+            "events", {"moving": timeline.moving, "gaps": timeline.gaps, "empty": timeline.empty}
+        )
+        self._send("playback", {"playing": snapshot.playing, **vars(playback)})
+        self._send("marks", [vars(mark) for mark in snapshot.marks])
+        if not snapshot.seeking:
+            self._send("frame", snapshot.frame)
+        self._show_quantity(snapshot)
+        if snapshot.edited_mark != self._sent.setdefault("edited", snapshot.edited_mark):
+            self._sent["edited"] = snapshot.edited_mark
+            call(self._client, "timeline.edit", snapshot.frame)
+
+    def _show_quantity(self, snapshot: Snapshot) -> None:
+        recording, survey = snapshot.opened.recording, snapshot.survey
+        options = drawable(has_truth=recording.has_truth)
+        chosen = snapshot.settings.strip if snapshot.settings.strip in options else "moving"
+        state = (chosen, id(survey), snapshot.survey_revision)
+        if self._sent.get("quantity") == state:
+            return
+        self._sent["quantity"] = state
+        quantity, unknown = options[chosen], np.full(len(recording), np.nan)
+        values = quantity.values(recording, survey) if survey else unknown
+        about = {
+            "title": quantity.title,
+            "unit": quantity.unit,
+            "top": 1.0 if quantity.kind == "share" else upper_limit(np.abs(values)),
+            "signed": quantity.kind == "signed",
+            "options": [(name, option.title) for name, option in options.items()],
+            "chosen": chosen,
+        }
+        valid = survey.valid if survey else unknown
+        call(self._client, "timeline.quantity", about, _packed(values), _packed(valid))
+
+    def _send(self, function: str, value: Any) -> None:  # noqa: ANN401 (JSON)
+        """Call a function of the page's timeline, unless its value is the last one."""
+        if function not in self._sent or self._sent[function] != value:
+            self._sent[function] = value
+            call(self._client, f"timeline.{function}", value)
+
+
+def drawable(*, has_truth: bool) -> dict[str, Quantity]:
+    """{name: quantity} that the timeline can draw: those of the plots, and what was measured."""
+    return {
+        name: quantity
+        for name, quantity in QUANTITIES.items()
+        if name in (*PLOTTED, "moving", "speed", "points", "clusters", "interval")
+        and (has_truth or not quantity.needs_truth)
+    }
+
+
+def _colours(palette: Palette) -> dict[str, str]:
+    return {
+        "flow": css(palette.flow),
+        "empty": css(palette.unassigned),
+        "gap": css(palette.category(_GAP)),
+        "mark": css(palette.category(_MARK)),
+    }
+
+
+def _packed(values: NDArray[np.float64] | Sequence[float]) -> str:
+    """Values as little-endian float32 in base64."""
+    return base64.b64encode(np.asarray(values, "<f4").tobytes()).decode()
