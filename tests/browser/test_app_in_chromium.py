@@ -63,10 +63,10 @@ def test_keys_step_and_play(tab: Tab):
     tab.until(lambda: tab.value("Frame") == frame + 1)
     tab.page.keyboard.press("j")
     tab.until(lambda: tab.value("Frame") == frame)
-    tab.page.keyboard.press("r")  # no loop
-    tab.page.keyboard.press("Space")
+    tab.page.keyboard.press("Space")  # again and again, as a short recording is played
     tab.until(lambda: tab.value("Frame") > frame + 2)
     tab.page.get_by_role("button", name="Pause", exact=True).wait_for()
+    tab.page.keyboard.press("r")  # no loop
     tab.until(lambda: tab.is_at(38))
     tab.page.get_by_role("button", name="Play", exact=True).wait_for()
 
