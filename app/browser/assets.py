@@ -1,10 +1,13 @@
 """Scripts and style sheets of our own elements in the page, kept as files beside this module."""
 
 import json
+from base64 import b64encode
 from functools import cache
 from importlib.resources import files
 
+import numpy as np
 import viser
+from numpy.typing import ArrayLike
 
 from app.browser.internals import run_script
 
@@ -40,6 +43,11 @@ def call(client: viser.ClientHandle, function: str, *values: object) -> None:
     """
     arguments = ", ".join(json.dumps(value, separators=(",", ":")) for value in values)
     run_script(client, f"window.tofscope.{function}({arguments});")
+
+
+def packed(values: ArrayLike, kind: str) -> str:
+    """Values in base64 for our scripts, as a NumPy type such as "<f4" or "u1", rows first."""
+    return b64encode(np.ascontiguousarray(values).astype(kind).tobytes()).decode()
 
 
 @cache

@@ -23,6 +23,10 @@ class EventContent(BaseModel):
     model_config = ConfigDict(strict=True, allow_inf_nan=False, extra="forbid", frozen=True)
 
 
+class NoContent(EventContent):
+    """Content of an event that says all by its kind."""
+
+
 class _Event(EventContent):
     kind: str
     number: int

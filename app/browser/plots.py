@@ -4,7 +4,6 @@ They are drawn by `assets/plots.js`. viser's plots cannot show values, zoom toge
 points, and rebuild themselves whenever anything but their data changes.
 """
 
-from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 
@@ -12,7 +11,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.browser.assets import call, run_asset
+from app.browser.assets import call, packed, run_asset
 from app.browser.page_events import EventContent, PageEvents
 
 PLACE = '<div data-tofscope-plots=""></div>'
@@ -68,7 +67,7 @@ class LinkedPlots:
 
     def open(self, times: NDArray[np.float64], quantities: Sequence[PlottedQuantity]) -> None:
         """Begin with the frames' times (K,) s and these plots, from top to bottom."""
-        call(self._client, "plots.open", _coded(times, "<f8"), [asdict(q) for q in quantities])
+        call(self._client, "plots.open", packed(times, "<f8"), [asdict(q) for q in quantities])
 
     def look(self, sides: Sequence[str], colours: Mapping[str, str]) -> None:
         """Show these sides in these colours: {side, or "truth" for references: CSS colour}."""
@@ -95,8 +94,8 @@ class LinkedPlots:
         """
         for start in range(0, len(frames), _FRAMES):
             part = slice(start, start + _FRAMES)
-            arrays = {name: _coded(values[part], "<f4") for name, values in numbers.items()}
-            coded = _coded(frames[part], "<u4"), _coded(counts[part], "u1")
+            arrays = {name: packed(values[part], "<f4") for name, values in numbers.items()}
+            coded = packed(frames[part], "<u4"), packed(counts[part], "u1")
             call(self._client, "plots.add", side, *coded, arrays)
 
     def say(self, notes: Mapping[str, str]) -> None:
@@ -119,7 +118,3 @@ class LinkedPlots:
 def enlarge_plots(client: viser.ClientHandle) -> None:
     """Lay the plots over the window, or put them back."""
     call(client, "plots.enlarge")
-
-
-def _coded(values: NDArray[np.generic], kind: str) -> str:
-    return b64encode(np.ascontiguousarray(values).astype(kind).tobytes()).decode()

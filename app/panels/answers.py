@@ -10,7 +10,7 @@ from app.analysis.answers import Answer
 from app.analysis.selection import cluster_of
 from app.analysis.zones import Zone
 from app.browser.assets import call, run_asset
-from app.browser.page_events import EventContent
+from app.browser.page_events import EventContent, NoContent
 from app.panels.answer_rows import rows, title
 from app.panels.cluster_story import story
 from app.panels.panel import Panel, PanelContext
@@ -51,10 +51,6 @@ class Pointed(EventContent):
 
     ray: Ray | None = None
     zone: ZonePlace | None = None
-
-
-class _Nothing(EventContent):
-    pass
 
 
 @dataclass(frozen=True)
@@ -102,8 +98,8 @@ class AnswersPanel(Panel):
         run_asset(self._client, "answers.css")
         run_asset(self._client, "answers.js")
         context.events.on("pointed", Pointed, lambda pointed: post(LookAt(pointed)))
-        context.events.on("let_go", _Nothing, lambda _: post(LetGo()))
-        context.events.on("look_from_sensor", _Nothing, lambda _: post(LookFromSensor()))
+        context.events.on("let_go", NoContent, lambda _: post(LetGo()))
+        context.events.on("look_from_sensor", NoContent, lambda _: post(LookFromSensor()))
         let_go = gui.add_command("Let go of what is selected", hotkey="escape", icon=viser.Icon.X)
         post_on(post, LetGo(), let_go)
         view = gui.add_command("View: from the selected sensor", hotkey="5", icon=viser.Icon.CAMERA)

@@ -11,7 +11,7 @@ from app.analysis.library import Opened
 from app.analysis.notes import all_notes
 from app.browser.assets import call, run_asset
 from app.browser.opening_card import end_opening, show_nothing_open, show_opening
-from app.browser.page_events import EventContent
+from app.browser.page_events import EventContent, NoContent
 from app.output.text import escaped
 from app.panels.panel import Panel, PanelContext
 from app.panels.triggers import post_on
@@ -27,10 +27,6 @@ _NOTHING = "No recording is open."
 
 class _Chosen(EventContent):
     label: str
-
-
-class _Nothing(EventContent):
-    pass
 
 
 class _Step(EventContent):
@@ -139,8 +135,8 @@ class RecordingsPanel(Panel):
 
     def _receive(self, context: PanelContext) -> None:
         events, post = context.events, context.post
-        events.on("recordings.look", _Nothing, lambda _: post(LookAtList()))
-        events.on("recordings.close", _Nothing, lambda _: post(LeaveList()))
+        events.on("recordings.look", NoContent, lambda _: post(LookAtList()))
+        events.on("recordings.close", NoContent, lambda _: post(LeaveList()))
         events.on("recordings.seen", _Seen, lambda seen: post(LookFirst(seen.rows)))
         events.on("recordings.choose", _Chosen, lambda chosen: post(OpenRecording(chosen.label)))
         events.on(

@@ -1,6 +1,5 @@
 """Images of the sensors as compact messages for the page."""
 
-import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from app.analysis.moving_targets import moving_targets
 from app.analysis.pairs import Pair
 from app.analysis.zones import SOURCE, ZoneState, cloud_of, frame_of, zone_states
+from app.browser.assets import packed
 from app.panels.answer_rows import read_at
 from app.scene.colours import Colour, css
 from app.scene.flow_colours import faded
@@ -125,9 +125,9 @@ def images(
     every = "2nd" if step == 2 else f"{step}th"
     return {
         "title": shown if step == 1 else f"{shown}, every {every} row and column of zones",
-        "values": _text(np.concatenate(sent)),
-        "moves": _text(np.packbits(np.concatenate(sent_moves))),
-        "colours": _text(_colours(look)),
+        "values": packed(np.concatenate(sent), "u1"),
+        "moves": packed(np.packbits(np.concatenate(sent_moves)), "u1"),
+        "colours": packed(_colours(look), "u1"),
         "moving": css(look.palette.flow),
         "counts": np.bincount(cloud.sensor[moving], minlength=len(grids)).tolist(),
         "absent": np.flatnonzero(np.logical_not(lateness >= 0)).tolist(),
@@ -250,11 +250,7 @@ def _enlarged(
         "title": f"{sensor.name}, read {read_at(float(lateness[index]))}",
         "rows": rows,
         "columns": columns,
-        "values": _text(values[index, :rows, :columns]),
-        "moves": _text(np.packbits(moves[index, :rows, :columns].ravel())),
+        "values": packed(values[index, :rows, :columns], "u1"),
+        "moves": packed(np.packbits(moves[index, :rows, :columns].ravel()), "u1"),
         "texts": zones.texts(index, sensor.grid) if rows * columns <= _MOST_TEXTS else None,
     }
-
-
-def _text(values: NDArray[np.uint8]) -> str:
-    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")

@@ -1,19 +1,16 @@
 """Timeline along the bottom of the window: transport, tracks, range, marks."""
 
-import base64
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 from pydantic import Field
 
 from app.analysis.library import Opened
 from app.analysis.quantities import QUANTITIES, Quantity
-from app.browser.assets import call, run_asset
-from app.browser.page_events import EventContent
+from app.browser.assets import call, packed, run_asset
+from app.browser.page_events import EventContent, NoContent
 from app.panels.histograms import upper_limit
 from app.panels.panel import Panel, PanelContext
 from app.panels.playback_commands import ChangePlayback, JumpToMotion, add_commands
@@ -34,10 +31,6 @@ _ASSETS = ("timeline.css", "timeline_tracks.js", "timeline_marks.js", "timeline.
 _FRAMES = 10**9
 
 Frame = Annotated[int, Field(ge=0, lt=_FRAMES)]
-
-
-class _Nothing(EventContent):
-    """An event that says all by its kind."""
 
 
 class _Seek(EventContent):
@@ -111,7 +104,7 @@ class TimelinePanel(Panel):
         for name in _ASSETS:
             run_asset(context.client, name)
         listen = context.events.on
-        listen("play", _Nothing, lambda _: post(TogglePlay()))
+        listen("play", NoContent, lambda _: post(TogglePlay()))
         listen("seek", _Seek, lambda content: post(seek(content.frame)))
         listen("step", _Step, lambda content: post(step(content.frames)))
         listen("motion", _Motion, lambda content: post(JumpToMotion((content.direction,))))
@@ -138,7 +131,7 @@ class TimelinePanel(Panel):
         """Show the time of a newly opened recording."""
         stamps = opened.recording.stamps
         self._sent = {}
-        call(self._client, "timeline.open", _packed(stamps - stamps[0]), SPEEDS)
+        call(self._client, "timeline.open", packed(stamps - stamps[0], "<f4"), SPEEDS)
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the frame, playback, and what is known of the recording."""
@@ -175,7 +168,7 @@ class TimelinePanel(Panel):
             "chosen": chosen,
         }
         valid = survey.valid if survey else unknown
-        call(self._client, "timeline.quantity", about, _packed(values), _packed(valid))
+        call(self._client, "timeline.quantity", about, packed(values, "<f4"), packed(valid, "<f4"))
 
     def _send(self, function: str, value: Any) -> None:  # noqa: ANN401 (JSON)
         """Call a function of the page's timeline, unless its value is the last one."""
@@ -201,8 +194,3 @@ def _colours(palette: Palette) -> dict[str, str]:
         "gap": css(palette.category(_GAP)),
         "mark": css(palette.category(_MARK)),
     }
-
-
-def _packed(values: NDArray[np.float64] | Sequence[float]) -> str:
-    """Values as little-endian float32 in base64."""
-    return base64.b64encode(np.asarray(values, "<f4").tobytes()).decode()
