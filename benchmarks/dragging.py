@@ -19,7 +19,7 @@ _DRAGGED = 5.0  # seconds
 _FIRST, _APART = 13, 3  # frames
 _RATE = 15.0  # frames per second of the samples
 _FLOOD = 200  # events in a second
-_INTERVAL = re.compile(r">Interval</span><span[^>]*>([0-9.]+) s<")
+_INTERVAL = re.compile(r">Δt of the pair</span><span[^>]*>([0-9.]+) s<")
 
 
 class _Hand:
@@ -39,7 +39,7 @@ class _Hand:
         wait_until(lambda: self.drawn, 120)
         time.sleep(1.0)
         if frame is not None:
-            self.client.change("Frame", frame)
+            self.client.tell("seek", {"frame": frame})
             time.sleep(1.0)
 
     def move(self, value: int) -> None:
@@ -119,7 +119,7 @@ def together(served: Served, count: int) -> list[str]:
         onward, at = divmod(step, len(_VALUES))
         for number, hand in enumerate(hands):
             if at == 0:  # the next frame has no cached results
-                hand.client.change("Frame", _FIRST + _APART * number + onward)
+                hand.client.tell("seek", {"frame": _FIRST + _APART * number + onward})
             hand.move(_VALUES[at])
         step += 1
         time.sleep(max(0.0, start + step * _EVERY - time.perf_counter()))

@@ -39,12 +39,12 @@ def scrub(served: Served, frames: int, max_range: float) -> None:
     count = _Count()
     with WireClient(served.address, count.listen) as client:
         wait_until(lambda: count.frames, 120)
-        wait_until(lambda: client.has("Frame") and client.value("Frame"))  # it is shown by now
+        wait_until(lambda: client.shown("timeline.frame"))  # it is shown by now
         _say("one client", served)
         client.change("max range", max_range)
         for k in range(frames):
             shown = count.frames
-            client.change("Frame", k % _FRAMES)
+            client.tell("seek", {"frame": k % _FRAMES})
             wait_until(lambda shown=shown: count.frames > shown)
             if (k + 1) % (frames // 10) == 0:
                 _say(f"{k + 1} frames scrubbed", served)

@@ -4,6 +4,7 @@ Run it from the project's folder: `.venv/bin/python -m benchmarks.playback`.
 """
 
 import argparse
+import re
 import statistics
 import tempfile
 import time
@@ -17,6 +18,7 @@ from tests.app.wire_client import WireClient
 
 _SETTLE = 3.0  # seconds after opening, in which plots begin to be filled
 _FRAMES = 10_000
+_SHOWN_FRAME = re.compile(r"window\.tofscope\.timeline\.frame\((\d+)\);")
 
 
 class _Frames:
@@ -30,18 +32,16 @@ class _Frames:
         if message["type"] == "SceneNodeUpdateMessage" and message["name"] == STATIC_TARGET_NODE:
             if "points" in message["updates"]:
                 self.clouds.append(now)
-        elif message["type"] == "GuiUpdateMessage":
-            content = str(message["updates"].get("content", ""))
-            if "Frame " in content and " s of " in content:
-                self.numbers.append(int(content.split("Frame ", 1)[1].split(maxsplit=1)[0]))
+        elif found := _SHOWN_FRAME.fullmatch(str(message.get("source"))):
+            self.numbers.append(int(found[1]))
 
     def forget(self) -> None:
         self.clouds.clear()
         self.numbers.clear()
 
 
-def _play(served: Served, client: WireClient, frames: _Frames, speed: str, seconds: float) -> str:
-    client.change("Speed", speed)
+def _play(served: Served, client: WireClient, frames: _Frames, speed: float, seconds: float) -> str:
+    client.tell("playback", {"speed": speed, "loop": True})
     client.trigger("First frame")
     time.sleep(1.0)
     frames.forget()
@@ -52,13 +52,13 @@ def _play(served: Served, client: WireClient, frames: _Frames, speed: str, secon
     times, numbers = list(frames.clouds), list(frames.numbers)
     client.trigger("Play or pause")
     if len(times) < 3:
-        return f"{speed:>5}: nothing came"
+        return f"{speed:4g}x: nothing came"
     gaps = [1e3 * (b - a) for a, b in pairwise(times)]
     rate = (len(times) - 1) / (times[-1] - times[0])
     steps = [b - a for a, b in pairwise(numbers) if b > a]  # a loop goes back to its start
     bandwidth = (client.received - received) / seconds / 1e6
     return (
-        f"{speed:>5}: {rate:5.1f} frames/s over {times[-1] - times[0]:.1f} s; gaps median "
+        f"{speed:4g}x: {rate:5.1f} frames/s over {times[-1] - times[0]:.1f} s; gaps median "
         f"{statistics.median(gaps):.0f} ms, longest {max(gaps):.0f} ms; "
         f"{sum(steps) - len(steps)} of {sum(steps)} frames left out; {100 * used:.0f} % of a "
         f"processor, {bandwidth:.2f} MB/s"
@@ -72,8 +72,7 @@ def measure(name: str, *paths: Path, seconds: float) -> None:
     with serving(*paths) as served, WireClient(served.address, frames.listen) as client:
         wait_until(lambda: frames.clouds, 120)
         time.sleep(_SETTLE)
-        client.change("Loop", True)
-        for speed in ("1x", "5x"):
+        for speed in (1.0, 5.0):
             print("  " + _play(served, client, frames, speed, seconds), flush=True)
 
 

@@ -47,10 +47,15 @@ class Served:
 
 
 @contextmanager
-def serving(*paths: Path) -> Iterator[Served]:
-    """Serve recordings, the samples where none is given, as `tofscope view` does."""
+def serving(*paths: Path, folder: Path | None = None) -> Iterator[Served]:
+    """Serve recordings, the samples where none is given, as `tofscope view` does.
+
+    Args:
+        paths: of the recordings.
+        folder: checkout of the project whose server it is, by default the current one.
+    """
     command = [sys.executable, "-c", _SERVE, "view", "--port", "0", *map(str, paths)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=folder) as process:
         try:
             assert process.stdout is not None
             yield Served(process.stdout.readline().split()[-1], process.pid)

@@ -23,13 +23,15 @@ class Facts:
     """What is in a recording.
 
     Attributes:
-        scenario: of a simulation, with speed and trial; empty where it was measured.
+        simulated: whether it is no measurement.
+        scenario: of a simulation, with speed and trial; empty where it has none.
         seconds: from the first frame to the last.
         frames: number of them.
         sensors: number of them.
         truth: whether the motion of the moving object is known.
     """
 
+    simulated: bool
     scenario: str
     seconds: float
     frames: int
@@ -56,6 +58,7 @@ def facts_of(recording: Recording) -> Facts:
     """What is in an open recording."""
     provenance = recording.provenance
     return Facts(
+        simulated=recording.simulated,
         scenario=provenance.experiment if provenance and recording.simulated else "",
         seconds=float(recording.stamps[-1] - recording.stamps[0]) if len(recording) else 0.0,
         frames=len(recording),
@@ -178,7 +181,7 @@ class Catalogue:
         try:
             opened = self._library.open(entry)
         except UserError as error:
-            return Unreadable(_without_path(str(error), entry))
+            return Unreadable(without_path(str(error), entry))
         except Exception as error:
             _LOG.exception("%s could not be looked at.", entry.path)
             return Unreadable(f"It cannot be opened ({type(error).__name__}: {error}).")
@@ -188,8 +191,8 @@ class Catalogue:
             self._library.release(entry)
 
 
-def _without_path(sentence: str, entry: Entry) -> str:
-    """A sentence about a file, beside its name."""
+def without_path(sentence: str, entry: Entry) -> str:
+    """A sentence about a file, to stand beside its name."""
     path = str(entry.path)
     if sentence.startswith(f"{path} "):
         sentence = f"It{sentence.removeprefix(path)}"

@@ -14,7 +14,8 @@ from recordings import Recording
 
 _LOG = logging.getLogger(__name__)
 _TRIED = 9  # frames at most
-_SECONDS = 1.5  # limit of the search, so that opening stays quick
+_SECONDS, _LONGEST = 1.5, 4.0
+"""Limits of the search, so that opening stays quick: once something moves, and until then."""
 _ENOUGH = 20  # moving points at which the search ends
 
 
@@ -30,7 +31,7 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
     """
     tried = candidates(opened.recording, parameters.n)
     best, most, seen = tried[0], 0, 0
-    end = time.monotonic() + _SECONDS
+    start = time.monotonic()
     for frame in tried:
         try:
             pair = estimates.estimated(opened, frame, parameters)
@@ -42,7 +43,7 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
         moving = int(pair.flow.moving.sum()) if pair.flow else 0
         if (moving, len(pair.target.points)) > (most, seen):
             best, most, seen = frame, moving, len(pair.target.points)
-        if most >= _ENOUGH or time.monotonic() > end:
+        if most >= _ENOUGH or time.monotonic() - start > (_SECONDS if most else _LONGEST):
             break
     return best
 

@@ -13,6 +13,11 @@ def truth_frame_note(frame: str) -> str:
     )
 
 
+def no_pair_note(n: int) -> str:
+    """Why there are no errors, to follow "has"."""
+    return f"no pair that counts: the object must move at both frames k-n and k, and n is {n}"
+
+
 def all_notes(recording: Recording) -> list[str]:
     """All that a reader must know of a recording, also of its truth."""
     sentences = notes(recording)

@@ -13,6 +13,9 @@ _ON, _NEAR = 0.008, 0.016
 """Largest distance between the pointer and a point that it is on, or near to, as a part of the
 picture's height."""
 
+_STANDING_BACK = 3.0
+"""A point that stands back counts as farther from the pointer by this factor."""
+
 
 @dataclass(frozen=True)
 class Sight:
@@ -60,26 +63,42 @@ class PointHit:
     angle: float
 
 
-def point_at(pair: Pair, drawn: Mapping[Side, NDArray[np.bool_]], sight: Sight) -> PointHit | None:
+@dataclass(frozen=True)
+class DrawnPoints:
+    """Which points of a cloud are drawn.
+
+    Attributes:
+        shown: (N,) whether a point is drawn.
+        clear: (N,) whether it stands out of the others.
+    """
+
+    shown: NDArray[np.bool_]
+    clear: NDArray[np.bool_]
+
+
+def point_at(pair: Pair, drawn: Mapping[Side, DrawnPoints], sight: Sight) -> PointHit | None:
     """The point nearest to a ray, None if the ray misses all.
+
+    Points that stand out come before small ones behind or in front of them.
 
     Args:
         pair: to search.
-        drawn: {cloud: (N,) whether a point is drawn}; clouds that are not in it are not searched.
+        drawn: {cloud: its drawn points}; clouds that are not in it are not searched.
         sight: the ray.
     """
     best: PointHit | None = None
-    for side, mask in drawn.items():
+    least = np.inf
+    for side, points in drawn.items():
         cloud = cloud_of(pair, side)
-        if cloud is None or not mask.any():
+        if cloud is None or not points.shown.any():
             continue
         offset = cloud.points - sight.origin
         depth = offset @ sight.direction
         aside = np.linalg.norm(offset - depth[:, None] * sight.direction, axis=1)
         angle = np.arctan2(aside, depth)
-        angle[~mask | (depth < sight.near)] = np.inf
-        index = int(angle.argmin())
-        hit = PointHit(side, index, float(angle[index]))
-        if hit.angle <= sight.tolerance and (best is None or hit.angle < best.angle):
-            best = hit
+        angle[~points.shown | (depth < sight.near) | (angle > sight.tolerance)] = np.inf
+        rank = np.where(points.clear, angle, _STANDING_BACK * angle)
+        index = int(rank.argmin())
+        if rank[index] < least:
+            least, best = rank[index], PointHit(side, index, float(angle[index]))
     return best

@@ -30,6 +30,14 @@ class Timeline:
     moving: tuple[tuple[int, int], ...]
 
 
+def has_counting_pair(timeline: Timeline, n: int) -> bool:
+    """Whether something moves at both frames of any pair (k-n, k)."""
+    moving = np.zeros(timeline.count, dtype=bool)
+    for first, last in timeline.moving:
+        moving[first : last + 1] = True
+    return bool((moving[: max(timeline.count - n, 0)] & moving[n:]).any())
+
+
 class RecordedTimeline:
     """The part of a timeline that needs no estimate: gaps, unplaced frames, true motion.
 

@@ -46,6 +46,7 @@ class PageEvents:
     def __init__(self, client: viser.ClientHandle) -> None:
         self._receivers: dict[str, Callable[[JsonValue], None]] = {}
         field = client.gui.add_text("Events of the page", "", visible=False)
+        run_asset(client, "shared.js")  # which all scripts that send events use
         run_asset(client, "events.js")
         run_script(client, f"window.tofscope.field = {element_id(field)!r};")
 

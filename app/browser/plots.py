@@ -17,7 +17,7 @@ from app.browser.page_events import EventContent, PageEvents
 PLACE = '<div data-tofscope-plots=""></div>'
 """HTML of the element that the plots are put into."""
 
-_ASSETS = ("plots.css", "plot_data.js", "plot_drawing.js", "plot_pair.js", "plots.js")
+_SCRIPTS = ("plot_data.js", "plot_drawing.js", "plot_pointer.js", "plot_pair.js", "plots.js")
 _FRAMES = 10_000  # at most in one message, so that others pass in between
 
 
@@ -61,7 +61,7 @@ class LinkedPlots:
         self, client: viser.ClientHandle, events: PageEvents, seek: Callable[[int], None]
     ) -> None:
         self._client = client
-        for name in _ASSETS:
+        for name in ("plots.css", *_SCRIPTS):
             run_asset(client, name)
         events.on("plots.seek", _Sought, lambda content: seek(content.frame))
 
@@ -98,9 +98,9 @@ class LinkedPlots:
             coded = packed(frames[part], "<u4"), packed(counts[part], "u1")
             call(self._client, "plots.add", side, *coded, arrays)
 
-    def say(self, notes: Mapping[str, str]) -> None:
-        """Write {name of a quantity: text} below the titles of its plots."""
-        call(self._client, "plots.say", dict(notes))
+    def say(self, notes: Mapping[str, str], sentence: str) -> None:
+        """Write {name of a quantity: text} at its plots, and a sentence above enlarged ones."""
+        call(self._client, "plots.say", dict(notes), sentence)
 
     def at(self, frame: int) -> None:
         """Draw the line of the current frame there."""

@@ -91,7 +91,7 @@ localStorage.setItem(
   "{STORAGE_PREFIX}%s", sessionStorage.getItem("tofscope-{_TOKEN}") ?? "");
 """
 _KEEP_TOKEN = f"""
-sessionStorage.setItem("tofscope-{_TOKEN}", "%s");
+try {{ sessionStorage.setItem("tofscope-{_TOKEN}", "%s"); }} catch {{}}
 """
 
 # Browsers allow the clipboard only to pages of this machine or over https.
@@ -103,14 +103,16 @@ if (navigator.clipboard) navigator.clipboard.writeText(link).catch(show); else s
 
 
 def set_up_controls(client: viser.ClientHandle) -> None:
-    """Let the page send every change of a control, and leave alone what is being typed."""
+    """Let the page send every change of a control, and leave alone what is typed or dragged."""
+    run_asset(client, "controls.css")
     run_script(client, SEND_AT_ONCE)
     run_script(client, KEEP_TYPED)
 
 
 def set_up_keys(client: viser.ClientHandle) -> None:
-    """Reserve arrow keys for a focused slider, and left and right for playback."""
+    """Reserve arrow keys for a focused slider, left and right for playback, others for panels."""
     run_script(client, _KEYS)
+    run_asset(client, "keys.js")
 
 
 def set_up_tabs(client: viser.ClientHandle) -> None:
@@ -213,7 +215,8 @@ def _answer(client: viser.ClientHandle, script: str, timeout: float = 5.0) -> st
     """
     # Tabs share their storage, and what stays there after a lost connection must not be found.
     key = f"answer-{uuid4()}"
-    run_script(client, script % key)
+    # Where storage is forbidden, viser answers the request with the reason.
+    run_script(client, f"try {{ {script % key} }} catch {{}}")
     try:
         return client.local_storage.get_item(key, timeout=timeout) or ""
     finally:

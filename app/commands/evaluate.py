@@ -17,7 +17,7 @@ import numpy as np
 from rich.cells import cell_len
 
 from app.analysis.evaluation import evaluate
-from app.analysis.notes import NO_TRUTH, notes, truth_frame_note
+from app.analysis.notes import NO_TRUTH, no_pair_note, notes, truth_frame_note
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import (
     Opening,
@@ -136,10 +136,7 @@ def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str
         return row, [*warnings, f"{path} {NO_TRUTH}."]
     if metrics.pairs == 0:
         known = "" if math.isnan(metrics.false_flow) else " Only the false flow is known."
-        warnings.append(
-            f"{path} has no pair that counts: the object must move at both frames k-n and k, and "
-            f"n is {parameters.n}.{known}"
-        )
+        warnings.append(f"{path} has {no_pair_note(parameters.n)}.{known}")
     if opening.truth_frame is not None:
         warnings.append(f"{path}: {truth_frame_note(opening.truth_frame)}.")
     return row | _as_json(metrics), warnings

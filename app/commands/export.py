@@ -6,6 +6,8 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from app.commands.export_frames import frame_of, frames_of, frames_text
+from app.commands.export_plots import make_clusters, make_plots
 from app.commands.flags.export_flags import (
     add_export_flags,
     figure_size,
@@ -17,7 +19,7 @@ from app.commands.flags.parameter_flags import add_parameter_flags, parameters_f
 from app.commands.flags.recording_flags import add_recording_flags, files_read, opening_from
 from app.errors import InputError
 from app.output.checks import PAGE, PICTURE, check_output, check_output_of
-from app.output.export_kinds import FLOWS, VECTORS, VIDEOS
+from app.output.export_kinds import CLUSTERS, FLOWS, PLOTS, VECTORS, VIDEOS
 from app.output.image_folder import check_image_folder, write_image_folder
 from app.output.writing import write
 from app.terminal.bar import Bar
@@ -26,7 +28,6 @@ from estimator import Parameters
 from robot_assets.printable import printable
 
 if TYPE_CHECKING:
-    from app.analysis.estimates import Estimates
     from app.analysis.library import Opened
     from app.exports.animation import Animation
     from app.exports.figure_settings import FigureSettings
@@ -36,7 +37,7 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
     """Add the subcommand."""
     parser = commands.add_parser(
         "export",
-        help="make a picture, a drawing, a video, an offline page or a file of a recording's flow",
+        help="make a picture, a video, an offline page, plots or a table of a recording",
         description=(
             "Draw a recording as the app does, for print, for talks and for others, or write its "
             "flow as numbers. The files say of themselves which recording they show, and with "
@@ -81,20 +82,27 @@ def _check_place(place: Path, kind: str, inputs: list[Path]) -> None:
         check_output(place, PICTURE if kind == "screenshot" else PAGE, inputs)
 
 
-_KINDS = {"vector": VECTORS, "video": VIDEOS, "flow": FLOWS}
+_KINDS = {
+    "vector": VECTORS,
+    "video": VIDEOS,
+    "flow": FLOWS,
+    "plots": PLOTS,
+    "clusters": CLUSTERS,
+}
 
 
 def _make_picture(
     place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
 ) -> str:
     from app.analysis.estimates import Estimates
+    from app.exports.drawn_pair import DrawnPair
     from app.exports.picture import picture
 
     estimates = Estimates()
-    frame = _frame(opened, parameters, options, estimates)
+    frame = frame_of(opened, parameters, options, estimates)
     figure = _figure(options, "screenshot")
-    pair = estimates.estimated(opened, frame, parameters)
-    write(place, picture(opened, pair, parameters, view_settings(options), figure))
+    drawn = DrawnPair(estimates.estimated(opened, frame, parameters), parameters)
+    write(place, picture(opened, drawn, view_settings(options), figure))
     return f"frame {frame} of {opened.recording.name}, {figure.size.text}."
 
 
@@ -106,10 +114,10 @@ def _make_vector(
     from app.exports.vector import vector_figure
 
     estimates = Estimates()
-    frame = _frame(opened, parameters, options, estimates)
+    frame = frame_of(opened, parameters, options, estimates)
     figure, settings = _figure(options, "vector"), view_settings(options)
-    drawn = DrawnPair(estimates.estimated(opened, frame, parameters))
-    content = vector_figure(opened.recording, drawn, parameters, settings, figure, _ending(place))
+    drawn = DrawnPair(estimates.estimated(opened, frame, parameters), parameters)
+    content = vector_figure(opened.recording, drawn, settings, figure, _ending(place))
     write(place, content)
     return f"frame {frame} of {opened.recording.name}, {_amount(content)}."
 
@@ -128,41 +136,43 @@ def _make_video(
         content = video(animation, _ending(place), speed, Estimates(), progress)
     write(place, content)
     seconds = sum(animation.seconds) / speed
-    return f"{_frames_text(animation.frames, opened)}, {seconds:.1f} s, {_amount(content)}."
+    return f"{frames_text(animation.frames, opened)}, {seconds:.1f} s, {_amount(content)}."
 
 
 def _make_images(
     place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
 ) -> str:
     from app.analysis.estimates import Estimates
-    from app.exports.captions import caption
-    from app.exports.pictures import png
+    from app.exports.images import numbered_pictures
 
     animation = _animation(opened, parameters, options, "images")
     with (
         _progress(animation.frames) as progress,
-        closing(animation.pictures(Estimates(), progress)) as pictures,
+        closing(numbered_pictures(animation, Estimates(), progress)) as pictures,
     ):
-        content = (
-            (k, png(picture, animation.figure.size, caption(opened.recording, parameters, k)))
-            for k, picture in zip(animation.frames, pictures, strict=True)
-        )
-        write_image_folder(place, content)
-    return f"{_frames_text(animation.frames, opened)}, each {animation.figure.size.text}."
+        write_image_folder(place, pictures)
+    return f"{frames_text(animation.frames, opened)}, each {animation.figure.size.text}."
 
 
 def _make_page(
     place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
 ) -> str:
     from app.analysis.estimates import Estimates
+    from app.exports.drawn_pair import DrawnPairs
     from app.exports.offline_page import offline_page
 
-    frames, settings = _frames(opened, options), view_settings(options)
-    view = view_names(options)[0]
-    page = offline_page(opened, frames, parameters, settings, view, Estimates(), lambda _: None)
+    frames, settings = frames_of(opened, options), view_settings(options)
+    view, estimates = view_names(options)[0], Estimates()
+    begin = frame_of(opened, parameters, options, estimates)
+    if options.frame is not None and begin not in frames:
+        raise InputError(f"The page has no frame {begin}: --frames leaves it out.")
+    begin = min(max(begin, frames[0]), frames[-1])
+    pairs = DrawnPairs(opened, parameters, estimates)
+    with _progress(frames) as progress:
+        page = offline_page(pairs, frames, begin, settings, view, progress)
     content = page.encode()
     write(place, content)
-    return f"{_frames_text(frames, opened)}, {_amount(content)}."
+    return f"{frames_text(frames, opened)}, {_amount(content)}."
 
 
 def _make_flow(
@@ -173,14 +183,34 @@ def _make_flow(
 
     estimates = Estimates()
     if options.frames is None:
-        frame = _frame(opened, parameters, options, estimates)
+        frame = frame_of(opened, parameters, options, estimates)
         frames = range(frame, frame + 1)
     else:
-        frames = _frames(opened, options)
+        frames = frames_of(opened, options)
     pairs = (estimates.estimated(opened, k, parameters) for k in frames)
     table = flow_table(pairs, several=options.frames is not None)
     write(place, flow_file(opened.recording, parameters, table, _ending(place)))
-    return f"{_frames_text(frames, opened)}, {len(table)} points."
+    return f"{frames_text(frames, opened)}, {len(table)} points."
+
+
+def _make_plots(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+
+    colours = view_settings(options).colours
+    with _progress(range(len(opened.recording))) as progress:
+        return make_plots(place, opened, parameters, colours, Estimates(), progress)
+
+
+def _make_clusters(
+    place: Path, opened: "Opened", parameters: Parameters, options: argparse.Namespace
+) -> str:
+    from app.analysis.estimates import Estimates
+
+    estimates = Estimates()
+    frame = frame_of(opened, parameters, options, estimates)
+    return make_clusters(place, opened, parameters, frame, estimates)
 
 
 _MAKERS: dict[str, Callable[[Path, "Opened", Parameters, argparse.Namespace], str]] = {
@@ -190,6 +220,8 @@ _MAKERS: dict[str, Callable[[Path, "Opened", Parameters, argparse.Namespace], st
     "images": _make_images,
     "html": _make_page,
     "flow": _make_flow,
+    "plots": _make_plots,
+    "clusters": _make_clusters,
 }
 """{what is made: how, which returns what is said of it}."""
 
@@ -211,49 +243,8 @@ def _animation(
 ) -> "Animation":
     from app.exports.animation import Animation
 
-    frames, settings = _frames(opened, options), view_settings(options)
+    frames, settings = frames_of(opened, options), view_settings(options)
     return Animation(opened, frames, parameters, settings, _figure(options, kind))
-
-
-def _frame(
-    opened: "Opened", parameters: Parameters, options: argparse.Namespace, estimates: "Estimates"
-) -> int:
-    """The frame that is asked for, or one at which something moves.
-
-    Raises:
-        InputError: there is no such frame.
-    """
-    from app.analysis.first_frame import first_frame_with_flow
-
-    frame = options.frame
-    if frame is None:
-        frame = first_frame_with_flow(opened, parameters, estimates)
-    _check_frame(opened, frame)
-    return frame
-
-
-def _frames(opened: "Opened", options: argparse.Namespace) -> range:
-    """The frames that are asked for, or all.
-
-    Raises:
-        InputError: there are no such frames.
-    """
-    first, last = options.frames or (None, None)
-    first = 0 if first is None else first
-    last = len(opened.recording) - 1 if last is None else last
-    _check_frame(opened, first)
-    _check_frame(opened, last)
-    if first > last:
-        raise InputError(f"The last frame must not be before the first; got {first}:{last}.")
-    return range(first, last + 1)
-
-
-def _check_frame(opened: "Opened", frame: int) -> None:
-    last = len(opened.recording) - 1
-    if not 0 <= frame <= last:
-        raise InputError(
-            f"{opened.recording.name} has no frame {frame}: its frames are 0 to {last}."
-        )
 
 
 @contextmanager
@@ -272,11 +263,6 @@ def _progress(frames: Sequence[int]) -> Iterator[Callable[[int], None]]:
 
 def _ending(place: Path) -> str:
     return place.suffix.lower().removeprefix(".")
-
-
-def _frames_text(frames: Sequence[int], opened: "Opened") -> str:
-    which = f"frames {frames[0]} to {frames[-1]}" if len(frames) > 1 else f"frame {frames[0]}"
-    return f"{which} of {opened.recording.name}"
 
 
 def _amount(content: bytes) -> str:

@@ -1,19 +1,20 @@
 """Pictures of a range of frames, rendered one after the other in one headless browser."""
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from PIL import Image
 
+from app.analysis.comparison import Comparison
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.pairs import Pair
-from app.exports.figure_settings import FigureSettings
+from app.exports.drawn_pair import DrawnPair, DrawnPairs
+from app.exports.figure_settings import FigureSettings, corner_parts_of
 from app.exports.headless import headless_scene
 from app.exports.key_views import camera_between, key_times
 from app.exports.pictures import composed, view_pixels
-from app.scene.corner_line import corner_parts
 from app.scene.scene_root import upright
 from app.scene.settings import ViewSettings
 from estimator import Parameters
@@ -32,6 +33,8 @@ class Animation:
         parameters: of the estimate.
         settings: of the drawing.
         figure: of each picture. Its views are no neighbours: the camera moves from one to the next.
+        comparison: with other parameters, whose flow is drawn too if its `both` is set.
+        picked: pair and index of a picked cluster, which is followed; None for none.
     """
 
     opened: Opened
@@ -39,6 +42,13 @@ class Animation:
     parameters: Parameters
     settings: ViewSettings
     figure: FigureSettings
+    comparison: Comparison | None = None
+    picked: tuple[Pair, int] | None = None
+
+    @property
+    def sides(self) -> Mapping[str, Parameters]:
+        """{A or B: its parameters} where the flow of both is drawn, else empty."""
+        return self.comparison.drawn(self.parameters) if self.comparison else {}
 
     @property
     def seconds(self) -> list[float]:
@@ -66,32 +76,35 @@ class Animation:
         figure = replace(self.figure, views=self.figure.views[:1])
         samples = self._samples(estimates)
         strip = max(
-            figure.planned(recording, pair, self.parameters, self.settings)[1].strip.height
-            for pair in samples
+            figure.planned(recording, drawn, self.settings)[1].strip.height for drawn in samples
         )
-        _, layout = figure.planned(recording, samples[0], self.parameters, self.settings, strip)
+        _, layout = figure.planned(recording, samples[0], self.settings, strip)
         width, height = view_pixels(figure.size, layout)
-        keys = self.figure.cameras(recording, samples, layout)
+        keys = self.figure.cameras(recording, [drawn.pair for drawn in samples], layout)
         background = figure.background(self.settings)
         turn = upright(recording.fixed_frame)
         with headless_scene(recording, self.settings, width, height, figure.size.detail) as scene:
-            times = key_times(len(self.frames))
+            pairs, times = self._drawn(estimates), key_times(len(self.frames))
             for index, (k, part) in enumerate(zip(self.frames, times, strict=True)):
                 progress(index)
-                pair = estimates.estimated_in_background(self.opened, k, self.parameters)
+                drawn = pairs.at(k)
                 camera = camera_between(keys, part)
-                scene.show(pair)
+                scene.show(drawn)
                 pixels = scene.rendered(camera) if index else scene.settled(camera)
-                line = corner_parts(recording, k, pair, self.parameters)
+                line = corner_parts_of(recording, drawn)
                 notes, its_layout = figure.laid_out(scene.legend, line, self.settings, strip)
                 # A rare line more must not move the scene.
                 its_layout = replace(its_layout, views=layout.views)
                 yield composed([pixels], figure.size, its_layout, background, notes, [camera], turn)
 
-    def _samples(self, estimates: Estimates) -> list[Pair]:
+    def _drawn(self, estimates: Estimates) -> DrawnPairs:
+        return DrawnPairs(self.opened, self.parameters, estimates, self.comparison, self.picked)
+
+    def _samples(self, estimates: Estimates) -> list[DrawnPair]:
         """Pairs of some frames, evenly spread, the first and the last among them."""
         places = np.linspace(0, len(self.frames) - 1, min(_SAMPLES, len(self.frames)))
+        pairs = self._drawn(estimates)
         return [
-            estimates.estimated_in_background(self.opened, self.frames[place], self.parameters)
+            pairs.at(self.frames[place])
             for place in dict.fromkeys(places.round().astype(int).tolist())
         ]

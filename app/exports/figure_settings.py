@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from app.analysis.pairs import Pair
 from app.errors import InputError
+from app.exports.drawn_pair import DrawnPair
 from app.exports.figure_cameras import FigureView, figure_camera
 from app.exports.figure_layout import FigureLayout, figure_layout
 from app.exports.figure_notes import SCALE_HEIGHT, FigureNotes
@@ -12,10 +13,9 @@ from app.exports.figure_size import FigureSize
 from app.scene.camera import Camera
 from app.scene.colours import Colour
 from app.scene.corner_line import corner_parts
-from app.scene.flow_colours import speed_limit
-from app.scene.legend import Legend, legend
+from app.scene.drawn_clouds import as_drawn, something_moves
+from app.scene.legend import Legend
 from app.scene.settings import TRANSPARENT, ViewSettings
-from estimator import Parameters
 from recordings import Recording
 
 
@@ -40,8 +40,7 @@ class FigureSettings:
     def planned(
         self,
         recording: Recording,
-        pair: Pair,
-        parameters: Parameters,
+        drawn: DrawnPair,
         settings: ViewSettings,
         strip: float = 0.0,
     ) -> tuple[FigureNotes, FigureLayout]:
@@ -49,17 +48,16 @@ class FigureSettings:
 
         Args:
             recording: of the pair.
-            pair: with its flow.
-            parameters: of the estimate.
+            drawn: the pair, and what is shown with it.
             settings: of the drawing.
             strip: least height of the texts below the views, points.
 
         Raises:
             InputError: the figure is too small for its texts.
         """
-        drawn = legend(pair, settings, speed_limit(pair, 0.0))
-        line = corner_parts(recording, pair.frame, pair, parameters)
-        return self.laid_out(drawn, line, settings, strip)
+        seen = as_drawn(settings, something_moves(drawn.pair))
+        line = corner_parts_of(recording, drawn)
+        return self.laid_out(drawn.legend(seen), line, settings, strip)
 
     def laid_out(
         self, drawn: Legend, line: tuple[str, ...], settings: ViewSettings, strip: float = 0.0
@@ -109,3 +107,9 @@ class FigureSettings:
     def background(self, settings: ViewSettings) -> Colour | None:
         """Colour of the ground, None for none."""
         return None if settings.behind == TRANSPARENT else settings.background
+
+
+def corner_parts_of(recording: Recording, drawn: DrawnPair) -> tuple[str, ...]:
+    """Parts of the corner line of a drawn pair."""
+    pair = drawn.pair
+    return corner_parts(recording, pair.frame, pair, drawn.parameters, drawn.sides)

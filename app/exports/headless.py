@@ -9,11 +9,11 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.analysis.pairs import Pair
 from app.browser.guarded_server import GuardedServer
 from app.browser.internals import FULL_RESOLUTION
 from app.errors import InputError
 from app.exports.chromium import headless_page
+from app.exports.drawn_pair import DrawnPair
 from app.scene.camera import Camera
 from app.scene.legend import Legend
 from app.scene.rendering import SceneRenderer
@@ -40,13 +40,13 @@ class HeadlessScene:
         self, client: viser.ClientHandle, scene: Scene, width: int, height: int, detail: float
     ) -> None:
         self._client, self._scene = client, scene
-        self._renderer = SceneRenderer(client, scene)
+        self._renderer = SceneRenderer(client, scene, _TIMEOUT)
         self._width, self._height, self._detail = width, height, detail
 
-    def show(self, pair: Pair) -> None:
+    def show(self, drawn: DrawnPair) -> None:
         """Draw a pair of the recording."""
         with self._client.atomic():
-            self._scene.show(pair)
+            self._scene.show(drawn.pair, drawn.second, drawn.side, drawn.picked)
 
     @property
     def legend(self) -> Legend:

@@ -1,20 +1,18 @@
 """Picture of the scene as a PNG file, rendered without a user's browser."""
 
 from app.analysis.library import Opened
-from app.analysis.pairs import Pair
 from app.exports.captions import caption
+from app.exports.drawn_pair import DrawnPair
 from app.exports.figure_settings import FigureSettings
 from app.exports.headless import headless_scene
 from app.exports.pictures import composed, png, view_pixels
 from app.scene.scene_root import upright
 from app.scene.settings import ViewSettings
-from estimator import Parameters
 
 
 def picture(
     opened: Opened,
-    pair: Pair,
-    parameters: Parameters,
+    drawn: DrawnPair,
     settings: ViewSettings,
     figure: FigureSettings,
 ) -> bytes:
@@ -22,8 +20,7 @@ def picture(
 
     Args:
         opened: the recording.
-        pair: of one of its frames, estimated.
-        parameters: of the estimate.
+        drawn: pair of one of its frames, and what is shown with it.
         settings: of the drawing.
         figure: of the picture.
 
@@ -31,14 +28,14 @@ def picture(
         InputError: the picture is too small for its texts, or Chromium is missing or returns none.
     """
     recording, size = opened.recording, figure.size
-    notes, layout = figure.planned(recording, pair, parameters, settings)
+    notes, layout = figure.planned(recording, drawn, settings)
     width, height = view_pixels(size, layout)
-    cameras = figure.cameras(recording, [pair], layout)
+    cameras = figure.cameras(recording, [drawn.pair], layout)
     with headless_scene(recording, settings, width, height, size.detail) as scene:
-        scene.show(pair)
+        scene.show(drawn)
         taken = [scene.settled(cameras[0]), *map(scene.rendered, cameras[1:])]
     background = figure.background(settings)
     image = composed(
         taken, size, layout, background, notes, cameras, upright(recording.fixed_frame)
     )
-    return png(image, size, caption(recording, parameters, pair.frame))
+    return png(image, size, caption(recording, drawn.parameters, drawn.pair.frame, drawn.sides))

@@ -24,6 +24,7 @@ _BARBS = 6  # lines of an arrow's head
 
 Segments = NDArray[np.float64]
 Rgb = tuple[float, float, float]
+Rgba = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,9 @@ def draw_heads(axes: "Axes", lines: Segments, colours: NDArray[np.float64], orde
     )
 
 
-def draw_lines(axes: "Axes", lines: Segments, colour: Rgb | str, width: float, order: int) -> None:
+def draw_lines(
+    axes: "Axes", lines: Segments, colour: Rgb | Rgba | str, width: float, order: int
+) -> None:
     """Draw lines (N, 2, 2) of one colour and width, points, as one path: the file stays small."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -184,9 +187,7 @@ def draw_shades(axes: "Axes", shades: Shades, dark: bool, order: int) -> None:
                 )
 
 
-def draw_area(
-    axes: "Axes", shades: Shades, colour: tuple[float, float, float, float], order: int
-) -> None:
+def draw_area(axes: "Axes", shades: Shades, colour: Rgba, order: int) -> None:
     """Fill all that a solid covers with one translucent colour."""
     there = (shades.colour >= 0).astype(float)
     if there.any():

@@ -2,15 +2,14 @@
 
 import csv
 import io
-import re
 from collections.abc import Mapping
 
 import numpy as np
 
 from app.analysis.quantities import QUANTITIES, Quantity, times
 from app.analysis.survey import Survey
-from app.output.text import csv_cell, escaped
-from estimator import to_nested
+from app.exports.csv_heading import described
+from app.output.text import csv_cell
 from recordings import Recording
 
 _COUNTS = "counts in the means [0 or 1]"
@@ -61,13 +60,7 @@ def _heading_of(quantity: Quantity) -> str:
 
 
 def _heading(recording: Recording, survey: Survey, name: str) -> str:
-    parameters = "; ".join(
-        f"{name}={value}" for name, value in to_nested(survey.parameters).items()
-    )
-    origin = "simulated" if recording.simulated else "measured"
-    # A line break would end the comment, and what separates cells would let one begin in the name.
-    file = " ".join(re.split(r'[\s,;"]+', escaped(recording.path.name)))
-    heading = f"{name}Tofscope; recording {file}; {origin}; {parameters}"
+    heading = f"{name}Tofscope; {described(recording, survey.parameters)}"
     if not survey.complete:
         heading += f"; {np.count_nonzero(survey.done)} of {len(survey)} frames computed"
     return heading

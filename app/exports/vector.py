@@ -16,7 +16,6 @@ from app.output.export_kinds import MADE_WITH
 from app.scene.colours import css
 from app.scene.scene_root import upright
 from app.scene.settings import ViewSettings
-from estimator import Parameters
 from recordings import Recording
 
 PDF, SVG = "pdf", "svg"
@@ -25,7 +24,6 @@ PDF, SVG = "pdf", "svg"
 def vector_figure(
     recording: Recording,
     drawn: DrawnPair,
-    parameters: Parameters,
     settings: ViewSettings,
     figure: FigureSettings,
     kind: str,
@@ -35,7 +33,6 @@ def vector_figure(
     Args:
         recording: of the pair.
         drawn: the pair, and what is shown with it.
-        parameters: of the estimate.
         settings: of the drawing.
         figure: of the file.
         kind: `PDF` or `SVG`.
@@ -44,7 +41,7 @@ def vector_figure(
         InputError: the figure is too small for its texts.
     """
     pair, size = drawn.pair, figure.size
-    notes, layout = figure.planned(recording, pair, parameters, settings)
+    notes, layout = figure.planned(recording, drawn, settings)
     turn = upright(recording.fixed_frame)
     cameras = figure.cameras(recording, [pair], layout)
     scene = VectorScene(
@@ -76,7 +73,7 @@ def vector_figure(
             scene.draw(view, Pinhole(camera, box.width, box.height))
         draw_notes(axes, layout, notes, cameras, turn)
         content = io.BytesIO()
-        text = caption(recording, parameters, pair.frame)
+        text = caption(recording, drawn.parameters, pair.frame, drawn.sides)
         sheet.savefig(content, format=kind, metadata=_metadata(kind, text), dpi=72)
     return content.getvalue()
 

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from app.analysis.selection import points_of
 from app.exports.drawn_pair import DrawnPair
+from app.exports.figure_layout import LINE, text_width
 from app.exports.outline import Sight
 from app.exports.pinhole import Pinhole
 from app.exports.solid import Solid
@@ -22,10 +24,10 @@ from app.exports.strokes import (
     draw_shades,
     draw_shafts,
     head_share,
-    in_front,
     rgb,
     tiled,
 )
+from app.exports.vector_ground import draw_axes, draw_grid, draw_shadow, standing
 from app.scene.arrows import barbs, shafts
 from app.scene.camera import Camera
 from app.scene.clouds_view import (
@@ -36,15 +38,26 @@ from app.scene.clouds_view import (
     arrows,
     has_arrow,
 )
+from app.scene.colours import css
 from app.scene.depth import extent_of, fading
-from app.scene.drawn_clouds import STATIC_SIZE, DrawnCloud, drawn_source, drawn_target
+from app.scene.drawn_clouds import (
+    STATIC_SIZE,
+    DrawnCloud,
+    as_drawn,
+    drawn_source,
+    drawn_target,
+    something_moves,
+)
 from app.scene.drawn_flow import drawn_flow, drawn_second_flow
 from app.scene.flow_colours import speed_limit
 from app.scene.lens import Lens
+from app.scene.scene_root import says_up
+from app.scene.selection_view import box_around, label_text
 from app.scene.sensors_view import FRUSTUM_DEPTH, SEEING, THICKNESS, half_extents
 from app.scene.settings import TRANSPARENT, ViewSettings
+from app.scene.surroundings import GRID_AND_AXES
 from app.scene.truth import object_points, truth_arrow
-from estimator import Label
+from estimator import ClusterResult, Label
 from recordings import Recording
 
 if TYPE_CHECKING:
@@ -53,11 +66,10 @@ if TYPE_CHECKING:
 _HIGH = 720  # pixels, the height of the picture that sizes in pixels refer to
 _OUTLINE = 0.3  # points
 _OUTLINE_INK, _BRIGHT_OUTLINE_INK = "#7d8189", "#b4b8c0"
-_GRID_ENDS, _GRID_CELL = 4.0, 0.25  # metres
-_GRID_LINE = 0.25  # points
 _OBJECT_SIZE = 0.8  # of a point that moves, of those that stand for the true object
 _OBJECT_OPACITY = 0.22
 _PICKED_SIZE = 1.2  # of a point that moves
+_LABEL_GAP = 2.5  # points between the label of a picked cluster and its box
 
 
 @dataclass(frozen=True)
@@ -91,13 +103,19 @@ class VectorScene:
         """
         sight = Sight(pinhole, self.solid)
         order = iter(range(1, 100))
-        if "Grid and axes" in self.settings.layers:
-            self._draw_grid(axes, pinhole, next(order))
+        grounded = GRID_AND_AXES in self.settings.layers
+        if grounded and says_up(self.recording.fixed_frame):
+            foot = standing(self.recording, self.drawn.pair, self.R_drawing_fixed)
+            draw_grid(axes, pinhole, foot, self.settings.palette.grid, next(order))
+            if foot is not None:
+                draw_shadow(axes, pinhole, foot, next(order))
         if (shades := sight.shades()) is not None:
             draw_shades(axes, shades, self.settings.dark, next(order))
             lines = sight.outline()
             ink = _BRIGHT_OUTLINE_INK if self.settings.dark else _OUTLINE_INK
             draw_lines(axes, lines, ink, _OUTLINE, next(order))
+        if grounded:
+            draw_axes(axes, pinhole, sight, self.R_drawing_fixed, next(order))
         if "Frustums" in self.settings.layers:
             for lines, colour, width in self._frustums():
                 seen = sight.seen_parts(lines @ self.R_drawing_fixed.T)
@@ -108,22 +126,10 @@ class VectorScene:
 
     def _draw_true_object(self, axes: "Axes", pinhole: Pinhole, order: int) -> None:
         """Draw the true object pale, so that what was measured of it stands out."""
-        sight, colour = Sight(pinhole, self.true_object), rgb(self.settings.palette.ghost)
+        sight, colour = Sight(pinhole, self.true_object), rgb(self.settings.palette.true_object)
         if (shades := sight.shades()) is not None:
             draw_area(axes, shades, (*colour, _OBJECT_OPACITY), order)
             draw_lines(axes, sight.outline(), colour, _OUTLINE, order)
-
-    def _draw_grid(self, axes: "Axes", pinhole: Pinhole, order: int) -> None:
-        """Draw the ground's lines, thick ones last."""
-        at = np.arange(-_GRID_ENDS, _GRID_ENDS + _GRID_CELL / 2, _GRID_CELL)
-        ends = np.array([-_GRID_ENDS, _GRID_ENDS])
-        along = np.stack(np.meshgrid(at, ends, [0.0], indexing="ij"), axis=-1)[:, :, 0]
-        lines = np.vstack([along, along[..., [1, 0, 2]]])
-        near = Lens.of(pinhole.camera).near
-        thick = np.tile(np.isclose(at % 1.0, 0.0), 2)
-        for chosen, colour in zip((~thick, thick), self.settings.palette.grid, strict=True):
-            cut = in_front(lines[chosen], pinhole, near)
-            draw_lines(axes, pinhole.project(cut)[0], rgb(colour), _GRID_LINE, order)
 
     def _frustums(self) -> Iterator[tuple[Segments, Rgb, float]]:
         """Lines (N, 2, 3) of the sensors' frustums in the fixed frame, colour and width each."""
@@ -146,7 +152,8 @@ class VectorScene:
         self, axes: "Axes", pinhole: Pinhole, sight: Sight, order: Iterator[int]
     ) -> None:
         """Draw points and arrows; what moves lies over the rest, its source over all."""
-        pair, settings, palette = self.drawn.pair, self.settings, self.settings.palette
+        pair, palette = self.drawn.pair, self.settings.palette
+        settings = as_drawn(self.settings, something_moves(pair))
         diameter = settings.point_size * self.pixel
         fade = self._fading(pinhole.camera)
         dots = Dots(axes, pinhole, sight, self.R_drawing_fixed, diameter, fade)
@@ -160,7 +167,9 @@ class VectorScene:
         dots.draw(static, STATIC_SIZE[settings.static_scene], next(order))
         if "True object" in settings.layers and self.true_object is None:
             points = object_points(pair)
-            dots.draw([(points, tiled(palette.ghost, len(points)))], _OBJECT_SIZE, next(order))
+            dots.draw(
+                [(points, tiled(palette.true_object, len(points)))], _OBJECT_SIZE, next(order)
+            )
         if "Target" in shown:
             dots.draw([_part(target, target.moving)], 1.0, next(order))
         if "Flow" in settings.layers:
@@ -179,6 +188,7 @@ class VectorScene:
         if self.drawn.picked is not None and pair.source is not None:
             points = pair.source.points[self.drawn.picked.source]
             dots.draw([(points, tiled(palette.picked, len(points)))], _PICKED_SIZE, next(order))
+            self._draw_box(axes, pinhole, sight, self.drawn.picked, order)
         if "Truth" in settings.layers:
             start, velocity = truth_arrow(pair, self.R_drawing_fixed[2])
             if velocity is not None:
@@ -187,6 +197,29 @@ class VectorScene:
                 sizes = (TRUTH_SHAFT, TRUTH_HEAD)
                 colours = tiled(palette.truth, len(segments))
                 self._draw_arrows(axes, pinhole, sight, segments, colours, sizes, order)
+
+    def _draw_box(
+        self,
+        axes: "Axes",
+        pinhole: Pinhole,
+        sight: Sight,
+        cluster: ClusterResult,
+        order: Iterator[int],
+    ) -> None:
+        """Draw the box around a picked cluster, and its label."""
+        colour = rgb(self.settings.palette.picked)
+        box = box_around(points_of(self.drawn.pair, cluster)) @ self.R_drawing_fixed.T
+        draw_lines(axes, sight.seen_parts(box), colour, self.pixel, next(order))
+        corners = pinhole.project(box)[0].reshape(-1, 2)
+        if not np.isfinite(corners).all():
+            return
+        text = label_text(cluster)
+        edge = text_width(text) / 2 + _LABEL_GAP
+        x = np.clip((corners[:, 0].min() + corners[:, 0].max()) / 2, edge, pinhole.width - edge)
+        y = np.clip(corners[:, 1].min() - _LABEL_GAP, LINE, pinhole.height)
+        card = {"facecolor": css(self.settings.background), "edgecolor": "none", "pad": 0.6}
+        look = {"color": colour, "ha": "center", "va": "bottom", "bbox": card}
+        axes.text(float(x), float(y), text, zorder=next(order), **look)
 
     def _fading(self, camera: Camera) -> Fading | None:
         """How the scene fades as this camera sees it; without a background it does not."""

@@ -98,6 +98,6 @@ def _paletted(pictures: Iterable[Image.Image]) -> Iterator[Image.Image]:
 
 
 def _about(animation: Animation) -> str:
-    texts = dict(caption(animation.opened.recording, animation.parameters, None))
+    texts = dict(caption(animation.opened.recording, animation.parameters, None, animation.sides))
     texts["Frames"] = f"{animation.frames[0]} to {animation.frames[-1]}"
     return json.dumps(texts, ensure_ascii=False)

@@ -11,8 +11,12 @@ from app.errors import InputError
 from app.output.checks import PICTURE, is_ours
 from app.output.writing import DRAFT
 
-_NAME = "frame_{:06d}.png"
 _NAMES = re.compile(r"frame_\d{6}\.png")
+
+
+def image_name(number: int) -> str:
+    """Name of the picture of a frame, by which names are in its order."""
+    return f"frame_{number:06d}.png"
 
 
 def check_image_folder(path: Path) -> None:
@@ -57,7 +61,7 @@ def write_image_folder(path: Path, pictures: Iterable[tuple[int, bytes]]) -> int
     try:
         draft.mkdir()
         for number, content in pictures:
-            (draft / _NAME.format(number)).write_bytes(content)
+            (draft / image_name(number)).write_bytes(content)
             count += 1
         if place.exists():
             # Once more, since it took a while.

@@ -76,8 +76,22 @@ def story(cluster: ClusterResult, parameters: Parameters, palette: Palette) -> s
     return framed(
         f"<div>{title}</div>{table(head, rows) if rows else ''}{note}{_own_story(cluster)}"
         f'<div style="margin: 0.3em 0">{swatch(cluster.label, palette)}'
-        f"{escape(cluster.reason)}</div>"
+        f"{escape(cluster.reason)}{_best_round(cluster, parameters)}</div>"
     )
+
+
+def _best_round(cluster: ClusterResult, parameters: Parameters) -> str:
+    """How near an unassigned cluster came to a label, whose last round is often an empty one."""
+    best = telling_round(cluster)
+    if best is None or cluster.label is not Label.UNASSIGNED:
+        return ""
+    count = next(i for i, turn in enumerate(cluster.rounds, start=1) if turn is best)
+    said = f" The fitness was {best.fitness:.2f} at best, in round {count}; γ is "
+    said += f"{parameters.gamma:g}."
+    paired = sum(len(turn.inlier_source) for turn in cluster.rounds)
+    if paired:
+        said += f" {paired} of its {len(cluster.source)} source points were paired: stationary."
+    return said
 
 
 def swatch(label: Label, palette: Palette) -> str:

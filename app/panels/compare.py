@@ -7,7 +7,7 @@ import viser
 from app.analysis.comparison import A, B, Comparison, by_side
 from app.browser.controls import show_value
 from app.errors import InputError
-from app.panels.differences import Totals, changes, difference_table, totals
+from app.panels.differences import Totals, changes, difference_table, other_pairs, totals, verdict
 from app.panels.panel import Panel, PanelContext
 from app.panels.plot_words import progress
 from app.panels.tables import framed
@@ -164,11 +164,15 @@ class ComparePanel(Panel):
         share, frames = progress(surveys)
         missing = next((side for side, pair in pairs.items() if pair is None), None)
         sentences = [
-            "Bold: the better one. Errors are means over the pairs that count.",
+            "Bold: the better one. Errors are means over the pairs that count."
+            if has_truth
+            else "No truth in this recording: no error says which is better.",
             f"Whole recording so far: {frames or 'nothing yet'}." if share < 1 else "",
             f"{missing} is not estimated here; switch to it or draw both."
             if missing and snapshot.pair
             else "",
         ]
         said = "".join(f"<div>{sentence}</div>" for sentence in sentences if sentence)
-        return difference_table(pairs, self._totals, counts) + said
+        decided = f"<div>{verdict(self._totals)}{other_pairs(self._totals)}</div>"
+        decided = decided if has_truth else ""
+        return decided + difference_table(pairs, self._totals, counts) + said

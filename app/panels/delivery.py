@@ -1,13 +1,22 @@
 """Delivery of messages and of background tasks' progress to the browser."""
 
+import shlex
 from collections.abc import Sequence
 
 import viser
 
+from app.browser.assets import call
 from app.browser.plots import enlarge_plots
 from app.browser.script import copy_link
 from app.output.text import escaped
-from app.session.outbox import Download, EnlargePlots, LinkToCopy, Message, Notice
+from app.session.outbox import (
+    Download,
+    EnlargePlots,
+    LinkToCopy,
+    Message,
+    Notice,
+    OpeningFailed,
+)
 from app.session.tasks import TaskState
 
 
@@ -29,6 +38,8 @@ class Delivery:
             match message:
                 case Notice():
                     self._notify(message)
+                case OpeningFailed():
+                    self._tell_failure(message)
                 case Download(name, content):
                     self._client.send_file_download(name, content, save_immediately=True)
                 case LinkToCopy(token):
@@ -47,6 +58,13 @@ class Delivery:
                 )
             elif loading.body != task.text:
                 loading.body = task.text
+
+    def _tell_failure(self, failed: OpeningFailed) -> None:
+        kept = "No recording is open." if failed.kept is None else f"{failed.kept} stays open."
+        holds = f"What the file holds: tofscope info {shlex.quote(str(failed.path))}"
+        title = f"{failed.label} cannot be opened"
+        said = (title, failed.reason, f"{kept}\n{holds}")
+        call(self._client, "failure.show", *map(escaped, said))
 
     def _notify(self, notice: Notice) -> None:
         if notice.replaces and (before := self._last.pop(notice.title, None)) is not None:

@@ -1,6 +1,6 @@
 """Differences between two sets of parameters, in a frame and over the recording, as HTML tables."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 
@@ -15,7 +15,7 @@ from estimator import METRIC_INFO, PARAMETER_INFO, Label, Parameters, all_method
 
 _NAN = float("nan")
 _COUNTED = ("moving", "stationary", "unassigned", "clusters")
-_ROWS = (*_COUNTED, *PLOTTED)
+_ROWS = (*PLOTTED, *_COUNTED)  # what decides comes first
 _LABELS = {"moving": Label.MOVING, "stationary": Label.STATIONARY, "unassigned": Label.UNASSIGNED}
 
 Numbers = Mapping[str, float]
@@ -63,14 +63,17 @@ def difference_table(
 ) -> str:
     """Table of A and B in this frame and over the whole recording, the better value bold.
 
+    Numbers of the whole recording are there once both sides are computed.
+
     Args:
         pairs: {A or B: its pair in this frame, None where it is not estimated}.
         whole: {A or B: its totals, None before there are any}.
         counts: {A or B: whether its pair counts in the means, in words}.
     """
     of_frame = {side: numbers_of(pair) for side, pair in pairs.items()}
-    of_whole = {side: known.numbers if known else {} for side, known in whole.items()}
+    # A part of one side beside the whole of the other would mislead.
     complete = all(known is not None and known.complete for known in whole.values())
+    of_whole = {side: known.numbers if known and complete else {} for side, known in whole.items()}
     rows = [
         TableRow(
             (
@@ -85,6 +88,42 @@ def difference_table(
     rows.append(TableRow(("Pairs that count", *counts.values(), *counting)))
     groups = (("", 1), ("This frame", 2), ("Whole recording", 2))
     return table(("", A, B, A, B), rows, groups)
+
+
+def verdict(whole: Mapping[str, Totals | None]) -> str:
+    """Sentence on which of A and B is better over the whole recording, "" until it is known.
+
+    Args:
+        whole: {A or B: its totals, None before there are any}.
+    """
+    known = {side: of.numbers for side, of in whole.items() if of is not None and of.complete}
+    if len(known) < 2:
+        return ""
+    better: dict[str, list[str]] = {A: [], B: []}
+    for name in PLOTTED:
+        if side := _better(name, known):
+            better[side].append(METRIC_INFO[name].title)
+    if all(np.isnan(numbers[name]) for numbers in known.values() for name in PLOTTED):
+        return "No pair counts, so no error says which is better."
+    if not any(better.values()):
+        return "Over the whole recording A and B are equally good."
+    if all(better.values()):
+        return (
+            f"Over the whole recording <b>A is better in {_listed(better[A])}, "
+            f"B in {_listed(better[B])}</b>."
+        )
+    side = A if better[A] else B
+    rest = "" if len(better[side]) == len(PLOTTED) else "; the rest is equal"
+    return f"Over the whole recording <b>{side} is better</b>, in {_listed(better[side])}{rest}."
+
+
+def other_pairs(whole: Mapping[str, Totals | None]) -> str:
+    """Sentence for means that are of different numbers of pairs, after the verdict; else ""."""
+    counting = [of.counting for of in whole.values() if of is not None and of.complete]
+    if len(set(counting)) < 2:
+        return ""
+    of_a, of_b = counting
+    return f" The means are not of the same pairs: {of_a} count for A, {of_b} for B."
 
 
 def changes(of_a: Parameters, of_b: Parameters) -> str:
@@ -115,10 +154,26 @@ def _cells(name: str, sides: Mapping[str, Numbers], *, marked: bool) -> tuple[st
     form = QUANTITIES[name].spec
     a, b = (sides[side].get(name, _NAN) for side in (A, B))
     written = [number(value, form) for value in (a, b)]
-    if marked and name in METRIC_INFO and written[0] != written[1]:
-        ranks = [METRIC_INFO[name].rank(value) for value in (a, b)]
-        if ranks[0] != ranks[1] and not np.isnan(ranks).any():
-            better = int(np.argmin(ranks))
-            written[better] = f"<b>{written[better]}</b>"
+    if marked and (better := _better(name, sides)):
+        at = (A, B).index(better)
+        written[at] = f"<b>{written[at]}</b>"
     difference = number(b - a, f"+{form.removeprefix('+')}")
     return written[0], f'<span title="B − A: {difference}">{written[1]}</span>'
+
+
+def _better(name: str, sides: Mapping[str, Numbers]) -> str | None:
+    """A or B, whichever is better by a metric as it is written; None for neither."""
+    if name not in METRIC_INFO:
+        return None
+    values = [sides[side].get(name, _NAN) for side in (A, B)]
+    ranks = [METRIC_INFO[name].rank(value) for value in values]
+    written = {number(value, QUANTITIES[name].spec) for value in values}
+    if len(written) < 2 or ranks[0] == ranks[1] or np.isnan(ranks).any():
+        return None
+    return (A, B)[int(np.argmin(ranks))]
+
+
+def _listed(words: Sequence[str]) -> str:
+    """Words as a list in a sentence."""
+    *others, last = words
+    return f"{', '.join(others)} and {last}" if others else last

@@ -8,11 +8,13 @@ import viser
 
 from app.analysis.pairs import Pair
 from app.analysis.selection import cluster_of
+from app.browser.assets import call, run_asset
 from app.browser.controls import show_value
 from app.browser.fields import sets
 from app.panels.cluster_story import cluster_table, legend, story, telling_round
 from app.panels.histograms import Histogram, upper_limit
 from app.panels.panel import Panel, PanelContext
+from app.panels.save_clusters import add_save_button
 from app.panels.tables import framed
 from app.scene.palettes import Palette
 from app.session.command import Command, LatestWins
@@ -58,6 +60,8 @@ class ExplainPanel(Panel):
         gui, post = context.client.gui, context.post
         self._pair: Pair | None = None
         self._shown: tuple[int | None, Palette] | None = None
+        self._client = context.client
+        run_asset(self._client, "story.js")
         self._list = gui.add_dropdown(
             "Cluster",
             (_NONE,),
@@ -67,6 +71,7 @@ class ExplainPanel(Panel):
         self._story = gui.add_html("")
         self._fitness = gui.add_html("")
         self._displacement = gui.add_html("")
+        add_save_button(context)
 
         @self._list.on_update
         async def _(event: viser.GuiEvent) -> None:
@@ -89,8 +94,12 @@ class ExplainPanel(Panel):
             return
         picked, palette = shown = (snapshot.picked, snapshot.settings.palette)
         if pair is not self._pair or shown != self._shown:
+            before = self._shown and self._shown[0]
             self._pair, self._shown = pair, shown
             self._explain(pair, picked, snapshot.parameters, palette)
+            # A click in the scene brings the story to a card there.
+            if picked not in (None, before) and snapshot.inspected.pinned is None:
+                call(self._client, "story.show")
 
     def _explain(
         self, pair: Pair, picked: int | None, parameters: Parameters, palette: Palette
@@ -105,7 +114,7 @@ class ExplainPanel(Panel):
                 "Click on a point in the scene, or on a row of the table, for a cluster's story."
             )
             if cluster is None
-            else story(cluster, parameters, palette)
+            else f'<div id="tofscope-story">{story(cluster, parameters, palette)}</div>'
         )
         self._table.content = cluster_table(
             clusters,

@@ -6,6 +6,7 @@ from typing import TypeVar
 import viser
 
 from app.exports.flow_file import CSV, NPZ
+from app.exports.images import ZIP
 from app.exports.vector import PDF, SVG
 from app.exports.video import GIF, MP4
 from app.panels.figure_controls import FigureControls
@@ -18,7 +19,7 @@ from app.session.command import Command
 T = TypeVar("T")
 
 _VECTORS = {"PDF": PDF, "SVG": SVG}
-_VIDEOS = {"MP4": MP4, "GIF": GIF}
+_VIDEOS = {"MP4": MP4, "GIF": GIF, "PNGs": ZIP}
 _FLOWS = {"CSV": CSV, "NPZ": NPZ}
 
 
@@ -43,7 +44,8 @@ class ExportPanel(Panel):
             "Video",
             _VIDEOS,
             lambda kind: SaveVideo(self._controls.chosen(), kind),
-            "Frames of the range that is played, at its speed; drawn by the server's Chromium",
+            "Frames of the range that is played, at its speed, or in a ZIP file; by the server's "
+            "Chromium",
         )
         self._add_group(
             "Flow data",

@@ -4,8 +4,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from app.analysis.estimates import Estimates
-from app.analysis.library import Library
 from app.errors import InputError
 from app.exports.animation import Animation
 from app.exports.captions import caption
@@ -13,6 +11,7 @@ from app.exports.drawn_pair import DrawnPair
 from app.exports.ffmpeg import find_ffmpeg
 from app.exports.figure_settings import FigureSettings
 from app.exports.file_names import safe
+from app.exports.images import ZIP, zipped_pictures
 from app.exports.pictures import composed, png, view_pixels
 from app.exports.vector import vector_figure
 from app.exports.video import MP4, video
@@ -21,8 +20,8 @@ from app.scene.corner_line import corner_parts
 from app.scene.scene_root import upright
 from app.scene.settings import WHITE, ViewSettings
 from app.session.command import LatestWins
-from app.session.outbox import Download, Message, Notice
-from app.session.tasks import Report
+from app.session.making import Making, delivered, start_making
+from app.session.outbox import Download, Message
 from app.session.workbench import Workbench
 
 _NO_PICTURE = (
@@ -30,8 +29,6 @@ _NO_PICTURE = (
     "size."
 )
 _VIDEO, _VECTOR = "Video", "Vector drawing"
-_QUIET = 0.02  # seconds without foreground work before the next frame
-_PATIENCE = 0.5  # seconds after which it continues in any case
 
 
 @dataclass(frozen=True)
@@ -85,36 +82,28 @@ class SaveVector(LatestWins):
         Raises:
             InputError: the size cannot be drawn, or another one is being drawn.
         """
-        saved, library, pair = workbench.saved(), workbench.library, workbench.pair
-        if workbench.opened is None or saved is None or pair is None:
+        saved, pair, estimates = workbench.saved(), workbench.pair, workbench.estimates
+        if saved is None or pair is None:
             return
-        if workbench.tasks.running(_VECTOR):
-            raise InputError("A vector drawing is being made already; wait until it is there.")
-        figure, compared = _figure(workbench, self.choice), saved.comparison
+        figure = _figure(workbench, self.choice)
         settings = _settings(workbench.settings, self.choice)
-        estimates, frame, picked = workbench.estimates, workbench.frame, workbench.picked
-        opened = library.open(workbench.opened.entry)
+        frame, picked, compared = workbench.frame, workbench.picked, saved.comparison
 
-        def make(_: Report) -> Sequence[Message]:
-            try:
-                drawn = DrawnPair(pair, picked=picked)
-                if compared is not None and compared.both:
-                    second = estimates.estimated_in_background(opened, frame, compared.other)
-                    drawn = replace(drawn, second=second, side=compared.edited)
-                content = vector_figure(
-                    opened.recording, drawn, saved.parameters, settings, figure, self.kind
-                )
-            finally:
-                library.release(opened.entry)
-            name = file_name(opened.recording.name, frame, self.choice, self.kind)
-            return _delivered(_VECTOR, name, content)
+        def make(making: Making) -> Sequence[Message]:
+            recording, second = making.opened.recording, None
+            if compared is not None and compared.both:
+                second = estimates.estimated_in_background(making.opened, frame, compared.other)
+            drawn = DrawnPair(pair, saved.parameters, compared, second, picked)
+            content = vector_figure(recording, drawn, settings, figure, self.kind)
+            name = file_name(recording.name, frame, self.choice, self.kind)
+            return delivered(_VECTOR, name, content)
 
-        workbench.tasks.start(_VECTOR, "Drawing.", make)
+        start_making(workbench, _VECTOR, "Drawing.", make)
 
 
 @dataclass(frozen=True)
 class SaveVideo(LatestWins):
-    """Save the range that is played as a video, `MP4` or `GIF`."""
+    """Save the range that is played as a video, `MP4` or `GIF`, or its pictures as `ZIP`."""
 
     choice: FigureChoice
     kind: str
@@ -126,57 +115,38 @@ class SaveVideo(LatestWins):
             InputError: the size cannot be drawn, another one is being made, or a program is
                 missing.
         """
-        saved, library, estimates = workbench.saved(), workbench.library, workbench.estimates
-        if workbench.opened is None or saved is None or saved.playback is None:
+        saved, pair, playback = workbench.saved(), workbench.pair, workbench.clock.playback
+        if saved is None:
             return
-        if workbench.tasks.running(_VIDEO):
-            raise InputError("A video is being made already; wait until it is there.")
         if self.kind == MP4:
             find_ffmpeg()
         figure = _figure(workbench, self.choice, beside=False)
         settings = _settings(workbench.settings, self.choice)
-        playback = saved.playback
-        opened = library.open(workbench.opened.entry)
+        picked = None if pair is None or saved.picked is None else (pair, saved.picked)
         frames = range(playback.first, playback.last + 1)
-        animation = Animation(opened, frames, saved.parameters, settings, figure)
-        workbench.tasks.start(
-            _VIDEO,
-            "Drawing frame by frame.",
-            lambda report: _make_video(
-                animation, self.kind, playback.speed, library, estimates, report
-            ),
-        )
+
+        def make(making: Making) -> Sequence[Message]:
+            animation = Animation(
+                making.opened, frames, saved.parameters, settings, figure, saved.comparison, picked
+            )
+
+            def progress(index: int) -> None:
+                making.step(f"Picture {index + 1} of {len(frames)}.")
+
+            if self.kind == ZIP:
+                content = zipped_pictures(animation, making.estimates, progress)
+            else:
+                content = video(animation, self.kind, playback.speed, making.estimates, progress)
+            which = f"frames_{frames[0]:04d}_{frames[-1]:04d}"
+            name = f"{safe(making.opened.recording.name)}_{which}.{self.kind}"
+            return delivered(_VIDEO, name, content)
+
+        start_making(workbench, _VIDEO, "Drawing frame by frame.", make)
 
 
 def file_name(recording: str, frame: int, choice: FigureChoice, ending: str) -> str:
     """File name that is safe on every file system."""
     return f"{safe(recording)}_frame_{frame:04d}{safe(choice.file_ending())}.{ending}"
-
-
-def _make_video(
-    animation: Animation,
-    kind: str,
-    speed: float,
-    library: Library,
-    estimates: Estimates,
-    report: Report,
-) -> Sequence[Message]:
-    count = len(animation.frames)
-
-    def progress(index: int) -> None:
-        estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
-        report(f"Picture {index + 1} of {count}.")
-
-    try:
-        content = video(animation, kind, speed, estimates, progress)
-    finally:
-        library.release(animation.opened.entry)
-    return _delivered(_VIDEO, f"{safe(animation.opened.recording.name)}.{kind}", content)
-
-
-def _delivered(title: str, name: str, content: bytes) -> Sequence[Message]:
-    sentence = f"{name}, {len(content) / 1e6:.1f} MB, is in your downloads."
-    return Download(name, content), Notice(title, sentence, "green", seconds=10.0)
 
 
 def _figure(workbench: Workbench, choice: FigureChoice, *, beside: bool = True) -> FigureSettings:

@@ -16,6 +16,8 @@ if (!legend) {
   document.body.append(legend);
 }
 legend.innerHTML = %s;
+const height = legend.firstElementChild?.offsetHeight ?? 0;
+document.documentElement.style.setProperty("--legend-height", `${height}px`);
 """
 
 

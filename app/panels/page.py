@@ -29,6 +29,7 @@ from app.panels.parameters import MoreParametersPanel, ParametersPanel
 from app.panels.plots import PlotsPanel
 from app.panels.presets import PresetsPanel
 from app.panels.recordings import RecordingsPanel
+from app.panels.scene_note import SceneNotePanel
 from app.panels.sensors import SensorsPanel
 from app.panels.status import StatusPanel
 from app.panels.system_theme import SystemTheme
@@ -58,7 +59,14 @@ _LEFT: dict[str, tuple[viser.IconName, _Panels]] = {
 }
 """{tab: its icon and its panels} on the other side of the scene."""
 
-_OVER: _Panels = (TimelinePanel, LegendPanel, CornerLinePanel, AnswersPanel, SystemTheme)
+_OVER: _Panels = (
+    TimelinePanel,
+    LegendPanel,
+    CornerLinePanel,
+    SceneNotePanel,
+    AnswersPanel,
+    SystemTheme,
+)
 """Outside viser's panels."""
 
 _LEFT_WIDTH = 320  # pixels

@@ -17,7 +17,8 @@ def label_of(name: str, info: ParameterInfo) -> str:
     # Longer words would be broken in the label's column.
     plain = name.rpartition(".")[2].replace("_", " ").replace("correspondence", "corresp.")
     unit = f" [{info.unit}]" if len(info.unit) == 1 and not info.slider else ""
-    return (info.symbol or plain) + unit
+    unset = f" ({UNSET} = unset)" if info.optional else ""
+    return (info.symbol or plain) + unit + unset
 
 
 def range_of(info: ParameterInfo) -> tuple[float, float]:
@@ -25,6 +26,23 @@ def range_of(info: ParameterInfo) -> tuple[float, float]:
     if info.slider:
         return info.slider[0], info.slider[1]
     return (UNSET if info.optional else info.low), info.high
+
+
+def rule_of(info: ParameterInfo, ends: tuple[float, float]) -> str:
+    """What becomes of a number in a parameter's field, in a sentence.
+
+    Args:
+        info: description of the parameter.
+        ends: (smallest, largest) number that its control takes.
+    """
+    low, high = ends
+    unit = f" {info.unit}" if info.unit else ""
+    whole = "Whole numbers from" if info.kind is int else "From"
+    if info.optional:
+        reach = f"{whole} {info.low:g} to {high:g}{unit}, or {UNSET} for unset"
+    else:
+        reach = f"{whole} {low:g} to {high:g}{unit}"
+    return f"{reach}; one beyond becomes the nearest."
 
 
 def shown_value(value: object) -> Any:  # noqa: ANN401 (of any parameter)
@@ -66,7 +84,8 @@ def _add_slider(
 ) -> viser.GuiSliderHandle[Any]:
     assert info.slider is not None
     low, high, step = (info.kind(end) for end in info.slider)
-    # A longer unit would overlap the slider's number; the hint contains it.
+    # A longer unit would overlap the slider's number; the hint contains it. Without marks, viser
+    # writes the ends that the slider has at the time.
     unit = f" {info.unit}" if info.kind is float and len(info.unit) == 1 else ""
     return gui.add_slider(
         label,
@@ -75,21 +94,16 @@ def _add_slider(
         max=max(high, value),
         step=step,
         initial_value=value,
-        marks=((low, f"{low:g}"), (high, f"{high:g}{unit}")),
+        marks=((low, f"{low:g}"), (high, f"{high:g}{unit}")) if unit else None,
         hint=hint,
     )
 
 
 def _hint(info: ParameterInfo) -> str:
     text = info.text[:1].upper() + info.text[1:]
-    unit = f" {info.unit}" if info.unit else ""
     said = [text]
     if info.kind in (int, float):
-        low, high = range_of(info)
-        ends = f"From {low:g} to {high:g}{unit}"
-        if info.optional:
-            ends = f"From {info.low:g} to {high:g}{unit}, or {UNSET} for unset"
-        said.append(f"{ends}; a number beyond becomes the nearest")
+        said.append(rule_of(info, range_of(info)).removesuffix("."))
     if info.kind is not bool:
         said.append(f"Default {'unset' if info.default is None else info.default}")
     return ". ".join(said) + "."

@@ -2,24 +2,27 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from html import escape
 from typing import Any, Self
 
 import numpy as np
 import viser
 
 from app.analysis.library import Opened
+from app.browser.assets import call, run_asset
 from app.browser.controls import show_value
+from app.browser.internals import element_id
+from app.browser.page_events import EventContent
 from app.panels.panel import Panel, PanelContext
 from app.panels.parameter_controls import (
     add_control,
     entered_value,
     label_of,
     range_of,
+    rule_of,
     shown_value,
 )
 from app.panels.triggers import post_on
-from app.session.command import Command
+from app.session.command import Command, LatestWins
 from app.session.commands import ChangeParameters, ResetParameters
 from app.session.snapshot import Status
 from app.session.workbench import Workbench
@@ -43,19 +46,37 @@ class UndoParameters:
         workbench.tuning.undo(self.changes)
 
 
+@dataclass(frozen=True)
+class HoldSlider(LatestWins):
+    """A slider is pressed, or released."""
+
+    held: bool
+
+    def apply(self, workbench: Workbench) -> None:
+        """Let what is entered in between be one change."""
+        workbench.tuning.hold(self.held)
+
+
+class _Held(EventContent):
+    held: bool
+
+
 class _ControlsPanel(Panel):
     """Controls of some parameters; a number beyond its range becomes the nearest in it."""
 
     def __init__(self, context: PanelContext, infos: dict[str, ParameterInfo]) -> None:
-        gui, self._infos = context.client.gui, infos
+        self._client, gui, self._infos = context.client, context.client.gui, infos
         self._controls: dict[str, Any] = {}
         self._ranges = {name: range_of(info) for name, info in infos.items()}
         self._revision = 0
         self._method: str | None = None
+        self._rules: dict[str, str] = {}
+        self._said: tuple[int, str, str] | None = None
+        for name in ("number_fields.css", "number_fields.js"):
+            run_asset(context.client, name)
         values = values_of(context.parameters)
         for name, info in infos.items():
             self._controls[name] = add_control(gui, name, info, values[name])
-        self._correction = gui.add_html("")
         for name in self._controls:
             self._connect(name, context.post)
         self._show_controls(context.parameters.method)
@@ -74,14 +95,39 @@ class _ControlsPanel(Panel):
             for name, control in self._controls.items():
                 show_value(control, shown_value(values[name]))
         self._show_controls(status.parameters.method)
-        said = [text for name, text in status.corrections.items() if name in self._controls]
-        self._correction.content = _correction(said[-1] if said else "")
+        self._say_rules()
+        self._say_correction(status)
 
     def _fit(self, control: Any, ends: tuple[float, float], value: float) -> None:  # noqa: ANN401
         """Give a slider its range, wider only for as long as a value from elsewhere needs it."""
         low, high = min(ends[0], value), max(ends[1], value)
         if (control.min, control.max) != (low, high):
             control.min, control.max = low, high
+
+    def _say_rules(self) -> None:
+        """Let the page say what a field takes, while a person types into it."""
+        for name, info in self._infos.items():
+            if info.kind not in (int, float):
+                continue
+            rule = rule_of(info, self._ranges[name])
+            if self._rules.get(name) != rule:
+                self._rules[name] = rule
+                element = element_id(self._controls[name])
+                call(self._client, "fields.rule", element, rule, info.kind is int)
+
+    def _say_correction(self, status: Status) -> None:
+        """Say at its field what became of the last number that did not obey the rule."""
+        before, self._said = self._said, None
+        for name, sentence in status.corrections.items():
+            if name in self._controls:
+                self._said = status.corrected, name, sentence
+        if self._said == before:
+            return
+        if before and (self._said is None or self._said[1] != before[1]):
+            call(self._client, "fields.say", element_id(self._controls[before[1]]), "")
+        if self._said:
+            _, name, sentence = self._said
+            call(self._client, "fields.say", element_id(self._controls[name]), sentence)
 
     def _show_controls(self, method: str) -> None:
         """Show the controls of a method's parameters, and hide all others."""
@@ -111,6 +157,8 @@ class ParametersPanel(_ControlsPanel):
         sliders = {name: info for name, info in _all_infos().items() if info.slider}
         super().__init__(context, {**sliders, "method": PARAMETER_INFO["method"]})
         _add_commands(context.client.gui, context.post)
+        run_asset(context.client, "presses.js")
+        context.events.on("slider", _Held, lambda slider: context.post(HoldSlider(slider.held)))
 
     def open(self, opened: Opened) -> None:
         """Let n reach as far back as the recording and its rate suggest."""
@@ -155,15 +203,6 @@ class MoreParametersPanel(_ControlsPanel):
         if resets != self._resets:
             self._resets = resets
             self._reset.options = tuple(resets)
-
-
-def _correction(sentence: str) -> str:
-    """HTML of what was corrected; of constant height, so that nothing below moves."""
-    return (
-        '<div style="font-size: 0.72rem; line-height: 1.15; padding: 0 1em; min-height: 2.3em;'
-        f' margin: -0.3rem 0; color: var(--mantine-color-orange-8)" role="status">'
-        f"{escape(sentence)}</div>"
-    )
 
 
 def _all_infos() -> dict[str, ParameterInfo]:

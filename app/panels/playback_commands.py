@@ -1,6 +1,6 @@
 """Commands of playback, with their keys and entries in the command palette."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from time import monotonic
 from typing import Any, Self
@@ -11,7 +11,7 @@ from viser import Icon
 from app.analysis.timeline import neighbour
 from app.panels.triggers import post_on
 from app.session.clock import SPEEDS
-from app.session.command import Command, Repeated
+from app.session.command import Command, LatestOfEach, Repeated
 from app.session.commands import TogglePlay, seek, step
 from app.session.outbox import Notice
 from app.session.workbench import Workbench
@@ -20,14 +20,8 @@ _LAST = 1_000_000_000  # frames: beyond the end of every recording
 
 
 @dataclass(frozen=True)
-class ChangePlayback:
+class ChangePlayback(LatestOfEach):
     """Change playback, {field of `Playback`: value}."""
-
-    values: Mapping[str, Any]
-
-    def merged_with(self, earlier: Self) -> Self:
-        """Both changes, the later value of each field."""
-        return type(self)({**earlier.values, **self.values})
 
     def apply(self, workbench: Workbench) -> None:
         """Change the fields."""
@@ -96,13 +90,12 @@ def add_commands(gui: viser.GuiApi, post: Callable[[Command], None]) -> None:
         post_on(post, posted, gui.add_command(label, hotkey=key, modifier=modifier, icon=icon))
 
     add("Play or pause", TogglePlay(), "space", icon=Icon.PLAYER_PLAY)
-    # The palette shows raw names such as arrowleft; the arrow signs in labels are clearer.
     add("Previous frame", step(-1), "J", icon=Icon.PLAYER_TRACK_PREV)
     add("Next frame", step(1), "L", icon=Icon.PLAYER_TRACK_NEXT)
     add("Previous frame (←)", step(-1), "arrowleft", icon=Icon.PLAYER_TRACK_PREV)
     add("Next frame (→)", step(1), "arrowright", icon=Icon.PLAYER_TRACK_NEXT)
-    add("Ten frames back (Shift ←)", step(-10), "arrowleft", "shift", Icon.CHEVRONS_LEFT)
-    add("Ten frames on (Shift →)", step(10), "arrowright", "shift", Icon.CHEVRONS_RIGHT)
+    add("Ten frames back", step(-10), "arrowleft", "shift", Icon.CHEVRONS_LEFT)
+    add("Ten frames on", step(10), "arrowright", "shift", Icon.CHEVRONS_RIGHT)
     add("First frame", seek(0), "home", icon=Icon.PLAYER_SKIP_BACK)
     add("Last frame", seek(_LAST), "end", icon=Icon.PLAYER_SKIP_FORWARD)
     add("Next motion", JumpToMotion((1,)), "M", icon=Icon.RUN)

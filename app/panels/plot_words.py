@@ -9,11 +9,11 @@ from app.analysis.survey import Survey
 from app.panels.tables import PLOTTED, framed
 from estimator import METRIC_INFO
 
-HOLLOW = "Hollow: the object does not move at both frames, so the pair does not count in the means."
+HOLLOW = "Hollow: the object rests at one or both frames, so the pair does not count."
 
 
 def summary(surveys: Mapping[str, Survey | None], *, has_truth: bool) -> str:
-    """HTML of the progress, and of why points are hollow or errors are missing.
+    """The progress, or why points are hollow or errors are missing, in a sentence.
 
     Args:
         surveys: {A or B: its survey, None before its first update}.
@@ -21,11 +21,14 @@ def summary(surveys: Mapping[str, Survey | None], *, has_truth: bool) -> str:
     """
     share, frames = progress(surveys)
     if share < 1:
-        sentence = f"Computing the whole recording: {frames}"
-    elif not has_truth:
-        sentence = "No truth in this recording: no errors, coverage and precision."
-    else:
-        sentence = " ".join([HOLLOW, *_none_counts(surveys)])
+        return f"Computing the whole recording: {frames}"
+    if not has_truth:
+        return "No truth in this recording: no errors, coverage and precision."
+    return " ".join([HOLLOW, *_none_counts(surveys)])
+
+
+def summary_html(sentence: str, share: float) -> str:
+    """HTML of a summary, and of the share of the frames that are computed as a bar."""
     bar = (
         '<div style="height: 3px; border-radius: 2px; background: currentColor;'
         f' width: {100 * share:.0f}%; opacity: {0.5 if share < 1 else 0}"></div>'
@@ -57,7 +60,9 @@ def means(surveys: Mapping[str, Survey | None]) -> dict[str, str]:
     found = {side: survey.summary() for side, survey in known.items()}
     counts = {side: pairs_that_count(survey) for side, survey in known.items()}
     said: dict[str, str] = {}
-    for name in PLOTTED if known else ():
+    if not known:
+        return dict.fromkeys(PLOTTED, "Mean –")  # so that nothing moves once they are known
+    for name in PLOTTED:
         values = {side: METRIC_INFO[name].text(getattr(m, name)) for side, m in found.items()}
         if list(surveys) == [A]:
             said[name] = f"Mean {values[A]}, {counts[A]}"

@@ -9,11 +9,12 @@ from app.analysis.library import Opened
 from app.analysis.quantities import times
 from app.analysis.survey import Survey
 from app.browser.plots import PLACE, LinkedPlots
+from app.output.text import escaped
 from app.panels.panel import Panel, PanelContext
 from app.panels.plot_feed import PlotFeed
 from app.panels.plot_list import PLOTS, plots, plotted
 from app.panels.plot_pair import PairChoice
-from app.panels.plot_words import means, summary
+from app.panels.plot_words import means, progress, summary, summary_html
 from app.panels.save_plots import add_save_buttons
 from app.panels.triggers import post_on
 from app.scene.colours import css
@@ -48,7 +49,7 @@ class PlotsPanel(Panel):
         self._look: tuple[tuple[str, ...], Palette] | None = None
         self._frame: int | None = None
         self._pair: tuple[str, str] | None = None
-        self._notes: dict[str, str] = {}
+        self._notes: tuple[dict[str, str], str] = {}, ""
         self._said: object = None
         self._summary = gui.add_html("")
         gui.add_html(PLACE)
@@ -62,7 +63,7 @@ class PlotsPanel(Panel):
         recording = opened.recording
         names = _SENT if recording.has_truth else PLOTS
         self._feeds = {side: PlotFeed(self._plots, side, names) for side in (A, B)}
-        self._frame, self._notes = None, {}
+        self._frame, self._notes = None, ({}, "")
         self._plots.open(times(recording), plots(has_truth=recording.has_truth))
 
     def show(self, snapshot: Snapshot) -> None:
@@ -98,12 +99,19 @@ class PlotsPanel(Panel):
             return
         self._said = state
         has_truth = snapshot.opened.recording.has_truth
-        self._summary.content = summary(surveys, has_truth=has_truth)
-        notes = means(surveys) if has_truth else {}
-        if notes != self._notes:
-            self._notes = notes
-            self._plots.say(notes)
+        sentence = summary(surveys, has_truth=has_truth)
+        share, _ = progress(surveys)
+        self._summary.content = summary_html(sentence, share)
+        said = (means(surveys) if has_truth else {}, f"{_name(snapshot.opened)}. {sentence}")
+        if said != self._notes:
+            self._notes = said
+            self._plots.say(*said)
 
 
 def _colours(palette: Palette) -> dict[str, str]:
     return {A: css(palette.side(A)), B: css(palette.side(B)), "truth": css(palette.truth)}
+
+
+def _name(opened: Opened) -> str:
+    simulated = " (simulated)" if opened.recording.simulated else ""
+    return f"{escaped(opened.recording.name)}{simulated}"

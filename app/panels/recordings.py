@@ -8,7 +8,8 @@ from viser import Icon
 
 from app.analysis.catalogue import About, facts_of
 from app.analysis.library import Opened
-from app.analysis.notes import all_notes
+from app.analysis.notes import all_notes, no_pair_note
+from app.analysis.timeline import Timeline, has_counting_pair
 from app.browser.assets import call, run_asset
 from app.browser.opening_card import end_opening, show_nothing_open, show_opening
 from app.browser.page_events import EventContent, NoContent
@@ -101,12 +102,21 @@ class RecordingsPanel(Panel):
 
     def __init__(self, context: PanelContext) -> None:
         self._client = context.client
-        for name in ("recordings.css", "notices.css", "recordings.js", "notes.js"):
+        for name in (
+            "recordings.css",
+            "notices.css",
+            "notices.js",
+            "recordings.js",
+            "notes.js",
+            "failure.js",
+        ):
             run_asset(self._client, name)
         self._panel = self._client.gui.add_html(_html("…", "Opening …", (), ""))
         self._shown: Opened | None = None
         self._notes: tuple[str, ...] = ()
-        self._known: tuple[Opened, tuple[str, ...]] | None = None
+        self._known: tuple[Opened, tuple[str, ...], str] | None = None
+        self._paired: tuple[Timeline, int] | None = None
+        self._no_pair = ""
         self._listing = Listing(())
         self._told: dict[str, About] = {}
         self._opening: str | None = None
@@ -130,6 +140,7 @@ class RecordingsPanel(Panel):
     def show(self, snapshot: Snapshot) -> None:
         """Describe what is open, also after a recording that could not be opened."""
         self._shown = snapshot.opened
+        self._look_for_pairs(snapshot)
         self._say_opening(None, snapshot.opened)
         self._describe(snapshot.opened)
 
@@ -158,10 +169,21 @@ class RecordingsPanel(Panel):
 
     def _describe(self, opened: Opened) -> None:
         """Say what is open, with the notes on it, of which some come with further frames."""
-        known = opened, opened.recording.warnings
+        no_pair = self._no_pair if opened is self._shown else ""
+        known = opened, opened.recording.warnings, no_pair
         if known != self._known:
             self._known = known
-            self._say(opened.entry.label, about(opened), tuple(all_notes(opened.recording)))
+            notes = [*all_notes(opened.recording), *([no_pair] if no_pair else [])]
+            self._say(opened.entry.label, about(opened), tuple(notes))
+
+    def _look_for_pairs(self, snapshot: Snapshot) -> None:
+        """Find out why there may be no errors to see, where there is truth."""
+        paired = snapshot.timeline, snapshot.parameters.n
+        if paired == self._paired:
+            return
+        self._paired = paired
+        known = snapshot.opened.recording.has_truth and not has_counting_pair(*paired)
+        self._no_pair = f"The recording has {no_pair_note(paired[1])}." if known else ""
 
     def _say(self, name: str, said: str, notes: tuple[str, ...]) -> None:
         hint = "\n".join([name, *(() if self._shown is None else details(self._shown))])

@@ -14,11 +14,12 @@ from app.panels.panel import PanelContext
 from app.panels.plot_list import plots
 from app.panels.triggers import post_chosen, post_on
 from app.session.command import LatestWins
+from app.session.making import Making, delivered, start_making
 from app.session.outbox import Download, Message
 from app.session.workbench import Workbench
 
 _CSV = "csv"
-_TITLE = "Plots"
+_TITLE = "Picture of the plots"
 _CHOICES = {form.upper(): form for form in (_CSV, *FORMS)}
 
 
@@ -48,22 +49,17 @@ class SavePlots(LatestWins):
             content = to_csv(opened.recording, surveys).encode()
             workbench.outbox.append(Download(name, content))
             return
-        if workbench.tasks.running(_TITLE):
-            raise InputError("A picture of the plots is being made already; wait for it.")
-        library, pair, colours = workbench.library, workbench.plotted_pair, workbench.settings
-        library.open(opened.entry)  # once more, since the session may open another
+        pair, colours = workbench.plotted_pair, workbench.settings.colours
 
-        def draw() -> Sequence[Message]:
-            try:
-                names = [q.name for q in plots(has_truth=opened.recording.has_truth)]
-                picture = survey_figure(
-                    opened.recording, surveys, names, self.form, pair=pair, colours=colours.colours
-                )
-            finally:
-                library.release(opened.entry)
-            return [Download(name, picture)]
+        def draw(making: Making) -> Sequence[Message]:
+            recording = making.opened.recording
+            names = [q.name for q in plots(has_truth=recording.has_truth)]
+            picture = survey_figure(
+                recording, surveys, names, self.form, pair=pair, colours=colours
+            )
+            return delivered(_TITLE, name, picture)
 
-        workbench.tasks.start(_TITLE, f"Drawing {name}.", lambda _: draw())
+        start_making(workbench, _TITLE, f"Drawing {name}.", draw)
 
 
 def add_save_buttons(context: PanelContext) -> None:

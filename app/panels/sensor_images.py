@@ -12,6 +12,7 @@ from app.analysis.pairs import Pair
 from app.analysis.zones import SOURCE, ZoneState, cloud_of, frame_of, zone_states
 from app.browser.assets import packed
 from app.panels.answer_rows import read_at
+from app.panels.sensor_names import captions, groups
 from app.scene.colours import Colour, css
 from app.scene.flow_colours import faded
 from app.scene.palettes import Palette
@@ -21,13 +22,12 @@ from estimator import Label
 from recordings import Cloud, RecordedSensor, Recording
 
 STATES, LABELS = 200, 210
-"""Values of a zone: below `STATES` its distance as a part of the scale, from there on its state,
-from `LABELS` on its label. `sensors.js` knows `STATES`, too."""
+"""Values of a zone: below `STATES` its place along the scale, from there on its state, and from
+`LABELS` on its label. `zone_image.js` knows `STATES`, too."""
 
 _MOST_ZONES = 6400  # of a message; larger recordings send every second, fourth ... zone
 _MOST_TEXTS = 256  # zones of a sensor whose numbers are written into its enlarged image
 _ROUND = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0)  # metres, ends of the scale
-_LONGEST_NAME = 8  # characters below an image
 _LATE = 0.002  # seconds after the frame's stamp
 _OTHER = 3
 """Label of a target point that belongs to nothing that moves."""
@@ -52,10 +52,11 @@ class Look:
 
 def layout(recording: Recording) -> dict[str, Any]:
     """Names and grids of a recording's sensors, for `sensors.open`."""
-    step = stride(recording.sensors)
+    step, names = stride(recording.sensors), [sensor.name for sensor in recording.sensors]
     return {
-        "names": [sensor.name for sensor in recording.sensors],
-        "short": short_names([sensor.name for sensor in recording.sensors]),
+        "names": names,
+        "captions": captions(names),
+        "groups": [{"name": name, "sensors": members} for name, members in groups(names)],
         "full": [list(sensor.grid) for sensor in recording.sensors],
         "grids": [[-(-side // step) for side in sensor.grid] for sensor in recording.sensors],
     }
@@ -67,24 +68,6 @@ def stride(sensors: Sequence[RecordedSensor]) -> int:
     while zones / step**2 > _MOST_ZONES:
         step *= 2
     return step
-
-
-def short_names(names: Sequence[str]) -> list[str]:
-    """Names that fit below an image: without what all begin with, long words as initials.
-
-    Names stay whole where that would make two of them the same.
-    """
-    if len(names) < 2:
-        return list(names)
-    first, last = min(names), max(names)
-    same = next((i for i, c in enumerate(first) if i >= len(last) or last[i] != c), len(first))
-    start = max(first.rfind("/", 0, same), first.rfind("_", 0, same)) + 1
-    short = [name[start:] for name in names]
-    for i, name in enumerate(short):
-        if len(name) > _LONGEST_NAME:
-            parts = (part.split("_") for part in name.split("/"))
-            short[i] = "/".join("".join(w if w.isdigit() else w[:1] for w in p) for p in parts)
-    return short if len(set(short)) == len(set(names)) else list(names)
 
 
 def scale_limit(cloud: Cloud, before: float) -> float:
@@ -132,7 +115,7 @@ def images(
         "counts": np.bincount(cloud.sensor[moving], minlength=len(grids)).tolist(),
         "absent": np.flatnonzero(np.logical_not(lateness >= 0)).tolist(),
         "late": np.flatnonzero(lateness > _LATE).tolist(),
-        "limit": f"{look.limit:g} m",
+        "ticks": [f"{share * look.limit:g} m" for share in (0.0, 0.25, 1.0)],
         **_legend(look),
         "selected": None
         if selected is None
@@ -156,7 +139,8 @@ class _Zones:
     def values(self, label: NDArray[np.uint8], look: Look) -> NDArray[np.uint8]:
         """Value (S, R, C) of each zone, see `STATES`."""
         if look.images.colours == BY_DISTANCE:
-            part = np.nan_to_num(self.cloud.ranges / look.limit)
+            # By its root, so that what is near, as dirt on a sensor is, stands out.
+            part = np.sqrt(np.nan_to_num(self.cloud.ranges / look.limit).clip(min=0))
             values = np.clip(part * STATES, 0, STATES - 1).astype(np.uint8)
         else:
             values = (LABELS + self.spread(label, 0)).astype(np.uint8)

@@ -1,8 +1,7 @@
 """Images of all sensors, coloured by distance or label; a click selects a sensor."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any
 
 import viser
 
@@ -15,7 +14,7 @@ from app.panels.answers import LookFromSensor, ZonePlace
 from app.panels.panel import Panel, PanelContext
 from app.panels.sensor_images import Look, images, layout, scale_limit
 from app.panels.triggers import post_chosen, post_on
-from app.session.command import LatestWins
+from app.session.command import LatestOfEach, LatestWins
 from app.session.inspection import IMAGE_COLOURS
 from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
@@ -36,14 +35,8 @@ class SensorPlace(EventContent):
 
 
 @dataclass(frozen=True)
-class ChangeImages:
+class ChangeImages(LatestOfEach):
     """Change settings of the sensors' images, {name: value}."""
-
-    values: Mapping[str, Any]
-
-    def merged_with(self, earlier: Self) -> Self:
-        """Both changes, the later value of each setting."""
-        return type(self)({**earlier.values, **self.values})
 
     def apply(self, workbench: Workbench) -> None:
         """Change them."""

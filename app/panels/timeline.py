@@ -22,6 +22,7 @@ from app.session.clock import SPEEDS
 from app.session.command import LatestWins
 from app.session.commands import ChangeView, TogglePlay, seek, step
 from app.session.marks import LONGEST_NOTE
+from app.session.outbox import Notice
 from app.session.snapshot import Snapshot
 from app.session.workbench import Workbench
 
@@ -84,6 +85,8 @@ class PutMark:
                 workbench.marks.remove(frame)
             else:
                 workbench.marks.put(frame, note)
+                said = f"The mark is kept in {workbench.marks.file.name}, beside the recording."
+                workbench.outbox.append(Notice("Marks", said, replaces=True))
 
 
 @dataclass(frozen=True)
@@ -166,6 +169,7 @@ class TimelinePanel(Panel):
             "signed": quantity.kind == "signed",
             "options": [(name, option.title) for name, option in options.items()],
             "chosen": chosen,
+            "truth": recording.has_truth,
         }
         valid = survey.valid if survey else unknown
         call(self._client, "timeline.quantity", about, packed(values, "<f4"), packed(valid, "<f4"))

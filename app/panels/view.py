@@ -35,6 +35,19 @@ _KEYS: dict[str, Literal["1", "2", "3", "4", "F"]] = {
 }
 _SHORT = {"Slanted": SLANTED, "Above": ABOVE, "Front": FRONT, "Sensors": SENSORS, "Fit": FIT}
 """{label of its button: view}; the names themselves are too long for a row."""
+_LAYER_HINTS = {
+    "Robot": "Its links, as its description draws them.",
+    "Sensors": "A mark where each sensor is.",
+    "Frustums": "What each sensor can see.",
+    "Source": "Points of the source, frame k-n.",
+    "Target": "Points of the target, frame k.",
+    "Flow": "An arrow from each moving point to where it went.",
+    "Truth": "The true displacement of what moves, where it is known.",
+    "True object": "Where what moves truly is: its mesh in simulated recordings, else its points "
+    "moved by the truth.",
+    "Grid and axes": "Grid of the floor, and the axes of the fixed frame.",
+}
+"""{layer: what it shows}."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +149,12 @@ class ViewPanel(Panel):
                 self._post(CameraMoved())
 
     def _add_colours(self) -> None:
-        colours = self._gui.add_dropdown("Colours", PALETTES, initial_value=self._settings.colours)
+        colours = self._gui.add_dropdown(
+            "Colours",
+            PALETTES,
+            initial_value=self._settings.colours,
+            hint="Of points, arrows, plots and pictures.",
+        )
         static = self._gui.add_dropdown(
             "Static scene",
             STATIC_SCENE,
@@ -149,7 +167,9 @@ class ViewPanel(Panel):
             initial_value=self._settings.arrow_colours,
             hint="What the colour of an arrow says; the legend says which is which.",
         )
-        dark = self._dark_box = self._gui.add_checkbox("Dark", self._settings.dark)
+        dark = self._dark_box = self._gui.add_checkbox(
+            "Dark", self._settings.dark, hint="Until it is chosen here, as the system is."
+        )
         legend = self._legend_box = self._gui.add_checkbox(
             "Legend", self._settings.legend, hint="With the scale bar and the line below it."
         )
@@ -196,7 +216,10 @@ class ViewPanel(Panel):
 
     def _add_layers(self) -> None:
         layers = {
-            layer: self._gui.add_checkbox(layer, layer in self._settings.layers) for layer in LAYERS
+            layer: self._gui.add_checkbox(
+                layer, layer in self._settings.layers, hint=_LAYER_HINTS[layer]
+            )
+            for layer in LAYERS
         }
 
         async def post_layers(_: viser.GuiEvent) -> None:

@@ -27,6 +27,7 @@ class Arrows:
             f"{node}/heads", none, colour, thickness_units="world"
         )
         self._drawn: NDArray[np.float64] = np.zeros((0, 2, 3))
+        self._colours: NDArray[np.uint8] = np.zeros((0, 3), dtype=np.uint8)
         self._head, self._gap = 0.02, 0.0
 
     def show(self, segments: NDArray[np.float64], colours: NDArray[np.uint8]) -> None:
@@ -36,8 +37,10 @@ class Arrows:
             segments: (N, 2, 3) where each begins and ends, metres.
             colours: (N, 3), or one (3,) for all.
         """
-        self._drawn = segments
         colours = np.broadcast_to(linear(colours), (len(segments), 3))
+        if np.array_equal(segments, self._drawn) and np.array_equal(colours, self._colours):
+            return
+        self._drawn, self._colours = segments, colours
         self._shafts.colors = np.repeat(colours[:, None], 2, axis=1)
         self._heads.colors = np.repeat(np.repeat(colours, _BARBS, axis=0)[:, None], 2, axis=1)
         self._draw()

@@ -40,3 +40,20 @@ class Camera:
     def direction(self) -> NDArray[np.float64]:
         """Unit vector (3,) of its gaze; zero for a camera that looks at its own position."""
         return np.subtract(self.look_at, self.position) / max(self.distance, 1e-12)
+
+    def sees(
+        self, points: NDArray[np.float64], up: NDArray[np.float64], aspect: float
+    ) -> NDArray[np.bool_]:
+        """Mask (N,) of the points (N, 3) that its picture shows, in the frame of its pose.
+
+        Args:
+            points: metres.
+            up: (3,) what points up in the picture.
+            aspect: width by height of the picture.
+        """
+        rays, gaze = points - self.position, self.direction
+        right = np.cross(gaze, up)
+        right = right / max(float(np.linalg.norm(right)), 1e-12)
+        edge = rays @ gaze * np.tan(self.fov / 2)
+        inside = np.abs(rays @ np.cross(right, gaze)) < edge
+        return inside & (np.abs(rays @ right) < aspect * edge)

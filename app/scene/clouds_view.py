@@ -23,6 +23,8 @@ TRUTH_NODE = f"{FIXED}/truth"
 HEAD, TRUTH_HEAD = 0.011, 0.022  # length of an arrow's head, of the picture's height
 SHAFT, TRUTH_SHAFT = 0.0024, 0.005  # thickness of shafts, of the picture's height
 
+_NO_COLOURS = np.zeros(3, dtype=np.uint8)  # of an empty cloud; the page takes no empty list
+
 
 class Cloud:
     """A cloud in two nodes: the points that stand out, and the others.
@@ -119,8 +121,9 @@ class CloudsView:
 
     def size_static(self, part: float) -> None:
         """Set the size of points that do not move, as a part of the others'."""
-        self._static_size = part
-        self._size(self.radius)
+        if part != self._static_size:
+            self._static_size = part
+            self._size(self.radius)
 
     def _size(self, radius: float) -> None:
         for cloud in (self.source, self.target):
@@ -147,7 +150,7 @@ class CloudsView:
             drawn = (points - eye) @ forward > near
             cloud.points = points[drawn]
             if colours.ndim == 2:
-                cloud.colors = colours[drawn]
+                cloud.colors = _sendable(colours[drawn])
         try:
             yield
         finally:
@@ -174,11 +177,15 @@ def _show_arrows(node: Arrows, flow: DrawnFlow) -> None:
 def _show(
     cloud: viser.PointCloudHandle, points: NDArray[np.float64], colours: NDArray[np.uint8]
 ) -> None:
-    drawn = points.astype(np.float32)
+    drawn, painted = points.astype(np.float32), _sendable(colours)
     if not np.array_equal(cloud.points, drawn):
         cloud.points = drawn
-    if not np.array_equal(cloud.colors, colours):
-        cloud.colors = colours
+    if not np.array_equal(cloud.colors, painted):
+        cloud.colors = painted
+
+
+def _sendable(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return colours if len(colours) else _NO_COLOURS
 
 
 def _add_cloud(scene: viser.SceneApi, name: str) -> viser.PointCloudHandle:

@@ -14,6 +14,7 @@ from app.scene.drawn_flow import moving_ends
 _SHARE = 0.75  # of the background's colour at the farthest points
 _LEAST = 0.8  # metres from where fading begins to the farthest points
 _FARTHEST = 97  # percentile of the points that counts as the farthest
+_HALF, _MOST = 50, 95  # percentiles of the points that stay clear
 _CHANGED = 0.03  # relative change of a distance that is seen
 
 
@@ -23,7 +24,8 @@ class Extent:
 
     Attributes:
         centre: (3,) metres of the sensors and of what moves, in the drawing.
-        radius: metres around it that hold both, and half of all points.
+        radius: metres around it that hold both, and half of all points; of a single sensor's, which
+            is aimed at its subject, most.
         reach: metres around it that hold nearly all points.
     """
 
@@ -41,8 +43,10 @@ def extent_of(pair: Pair, R_drawing_fixed: NDArray[np.float64]) -> Extent | None
     near, points = near @ R_drawing_fixed.T, pair.target.points @ R_drawing_fixed.T
     centre = (near.min(axis=0) + near.max(axis=0)) / 2
     radius = float(np.linalg.norm(near - centre, axis=1).max())
-    half, reach = np.percentile(np.linalg.norm(points - centre, axis=1), [50, _FARTHEST]).tolist()
-    return Extent(centre, max(radius, half), reach)
+    near_part = _HALF if len(sensors) > 1 else _MOST
+    distances = np.linalg.norm(points - centre, axis=1)
+    held, reach = np.percentile(distances, [near_part, _FARTHEST]).tolist()
+    return Extent(centre, max(radius, held), reach)
 
 
 def fading(extent: Extent, camera: Camera) -> tuple[float, float]:

@@ -1,6 +1,6 @@
 """Points of a pair's clouds as they are drawn: which, in which colours, which of them stand out."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,18 @@ from estimator import ClusterResult
 
 STATIC_SIZE = {SHOWN: 0.75, DIMMED: 0.5, HIDDEN: 0.5}
 """Size of points that do not move, as a part of those that do."""
+
+
+def as_drawn(settings: ViewSettings, moves: bool) -> ViewSettings:
+    """Settings of a drawing; where nothing moves, nothing is dimmed in favour of it."""
+    if moves or settings.static_scene != DIMMED:
+        return settings
+    return replace(settings, static_scene=SHOWN)
+
+
+def something_moves(pair: Pair) -> bool:
+    """Whether a pair's flow moves anything."""
+    return pair.flow is not None and bool(pair.flow.moving.any())
 
 
 @dataclass(frozen=True)

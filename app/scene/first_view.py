@@ -1,6 +1,5 @@
 """Initial camera pose: a slanted view of the sensors and their surroundings."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,8 +7,12 @@ from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 
-_SMALLEST = 0.15  # metres, smallest half extent of the box that fills the picture
+_LOWER = 0.82  # of half the picture's height, below which a legend lies
+_MARGIN = 1.12  # of the picture, relative to what fills it
+_SMALLEST = 0.15  # metres, smallest half extent of what fills the picture
 _REACH = 0.9  # metres from the sensors' centre; points beyond are left out of the view
+_AROUND = 0.08  # metres around a sensor that are seen with it
+_OUTLIERS = 3  # percent of points at either end of an axis that a view may cut off
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ def first_view(
     R_drawing_fixed: Vector,
     fov: float,
     aspect: float,
-    important: Sequence[Vector] = (),
+    important: Vector | None = None,
 ) -> View:
     """View that contains the sensors and the points near them.
 
@@ -36,58 +39,89 @@ def first_view(
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         fov: vertical field of view of the camera, rad.
         aspect: width by height of the picture.
-        important: sets of points (M, 3) in the fixed frame; the view contains most of each, however
-            far away.
+        important: points (M, 3) in the fixed frame, all of which the view contains, however far
+            away; None for none.
     """
     poses = poses[np.isfinite(poses).all(axis=(1, 2))]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
-    box = [*near_corners(points @ R_drawing_fixed.T, sensors)]
-    for seen in important:
-        box += [*percentile_corners(seen @ R_drawing_fixed.T)]
-    low, high = np.min(box, axis=0), np.max(box, axis=0)
-    centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
+    seen = surroundings(points @ R_drawing_fixed.T, sensors)
+    if important is not None:
+        seen = np.vstack([seen, important @ R_drawing_fixed.T])
     direction = _towards_camera(poses[:, :3, 2] @ R_drawing_fixed.T)
-    distance = box_distance(half, direction, np.tan(fov / 2), aspect)
-    return View(centre + distance * direction, centre)
+    return filling_view(seen, direction, fov, aspect)
 
 
-def box_distance(half: Vector, direction: Vector, slope: float, aspect: float) -> float:
-    """Distance from the centre of a box at which all its corners just fit the picture, metres.
+def filling_view(
+    points: Vector, direction: Vector, fov: float, aspect: float, smallest: float = _SMALLEST
+) -> View:
+    """The nearest view in a direction whose picture contains all points, with a margin.
 
     Args:
-        half: (3,) metres, half the size of the box along each axis.
-        direction: (3,) unit vector from its centre to the camera.
-        slope: of the ray through the picture's upper edge.
+        points: (N, 3) metres, N >= 1.
+        direction: (3,) unit vector from what is seen to the camera.
+        fov: vertical field of view of the camera, rad.
         aspect: width by height of the picture.
+        smallest: half extent of what fills the picture at least, metres.
     """
-    signs = np.stack(np.meshgrid(*[[-1.0, 1.0]] * 3), axis=-1).reshape(-1, 3)
     right = np.cross([0.0, 0.0, 1.0], direction)
     # Straight from above, x is to the right.
     right = right / np.linalg.norm(right) if np.any(right) else np.array([1.0, 0.0, 0.0])
     up = np.cross(direction, right)
-    corners = signs * half
-    aside = np.maximum(np.abs(corners @ right) / aspect, np.abs(corners @ up)) / slope
-    return float((aside + corners @ direction).max())
+    slope = np.tan(fov / 2) / _MARGIN
+    depth = points @ direction
+    middle = float(depth.min() + depth.max()) / 2
+    sides, ends = (aspect * slope, aspect * slope), (slope, _LOWER * slope)
+    away = max(
+        _nearest(points @ right, depth, sides),
+        _nearest(points @ up, depth, ends),
+        middle + smallest / (slope * min(aspect, 1.0)),
+    )
+    centre = _middle(points @ right, depth, sides, away) * right
+    centre += _middle(points @ up, depth, ends, away) * up
+    return View(centre + away * direction, centre + middle * direction)
 
 
-def percentile_corners(points: Vector) -> Vector:
-    """5th and 95th percentile (2, 3) of points (N, 3); (0, 3) without points."""
-    return np.percentile(points, [5, 95], axis=0) if len(points) else points
+def _nearest(across: Vector, depth: Vector, slopes: tuple[float, float]) -> float:
+    """Where along its gaze a camera must stand at least so that two edges hold all points.
+
+    Each point must lie between both edges of the picture of a camera at (middle, place):
+    across - middle <= slopes[0] * (place - depth) and middle - across <= slopes[1] * (...).
+
+    Args:
+        across: (N,) metres to one side.
+        depth: (N,) metres towards the camera.
+        slopes: of the rays through the edges at this side, and at the other.
+    """
+    one, other = slopes
+    return float((across + one * depth).max() + (other * depth - across).max()) / (one + other)
 
 
-def near_corners(points: Vector, sensors: Vector) -> tuple[Vector, Vector]:
-    """Lowest and highest corner of the box around the sensors and the points near them.
+def _middle(across: Vector, depth: Vector, slopes: tuple[float, float], place: float) -> float:
+    """Where across its gaze a camera at a place stands with equal room at both edges."""
+    one, other = slopes
+    least, most = (across + one * depth).max(), (other * depth - across).max()
+    return float((least - one * place) + (other * place - most)) / 2
+
+
+def without_outliers(points: Vector) -> Vector:
+    """Most of the points (N, 3): those far off along an axis are left out."""
+    if len(points) == 0:
+        return points
+    low, high = np.percentile(points, [_OUTLIERS, 100 - _OUTLIERS], axis=0)
+    return points[((points >= low) & (points <= high)).all(axis=1)]
+
+
+def surroundings(points: Vector, sensors: Vector) -> Vector:
+    """The sensors and most of the points near them, (M, 3), M >= 1.
 
     Args:
         points: (N, 3) metres.
         sensors: (S, 3) metres.
     """
-    near = _near(points, sensors)
-    # Outliers among the points are left out; every sensor stays in view.
-    seen = np.vstack([sensors, np.percentile(near, [5, 95], axis=0)]) if len(near) else sensors
-    if len(seen) == 0:
-        seen = np.zeros((1, 3))
-    return seen.min(axis=0), seen.max(axis=0)
+    around = _AROUND * np.vstack([np.eye(3), -np.eye(3)])
+    bodies = (sensors[:, None] + around).reshape(-1, 3)
+    seen = np.vstack([bodies, without_outliers(_near(points, sensors))])
+    return seen if len(seen) else np.zeros((1, 3))
 
 
 def _near(points: Vector, sensors: Vector) -> Vector:
@@ -99,7 +133,7 @@ def _near(points: Vector, sensors: Vector) -> Vector:
     if len(points) == 0 or len(sensors) == 0:
         return points
     distance = np.linalg.norm(points - sensors.mean(axis=0), axis=1)
-    part = 0.1 if len(sensors) > 1 else 0.9
+    part = 0.1 if len(sensors) > 1 else 0.95
     return points[distance <= max(_REACH, float(np.quantile(distance, part)))]
 
 

@@ -15,13 +15,42 @@ _FINE, _COARSE = (0.25, 1.0), (1.0, 5.0)  # metres between thin and between thic
 _COARSE_FROM = 8.0  # metres from the camera to the point that it looks at
 _FADED, _FADED_PART = 9.0, 2.5  # where lines end: metres, and a multiple of that distance
 _LIFTED = 0.003  # metres of the shadow above the plane, which is drawn before it
-_SOFT = 2.4  # size of the shadow, of what the robot stands on
 _PIXELS = 96
 _OPACITY = 0.55  # of the plane, through which points below are seen
 _DARKEST = 0.45  # opacity of the shadow's middle
 _LOW, _BELOW = 2, 0.05  # percentile of moving points that counts as the lowest; metres
 _LEVEL = 0.99  # cosine of the angle between a base's axis and the vertical
 _FOOT = 0.1  # metres above a base's lowest vertex that its foot reaches
+
+
+SHADOW_SIZE = 2.4
+"""Size of the shadow, of what the robot stands on."""
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The grid's lines as a camera sees them.
+
+    Attributes:
+        thin: metres from one thin line to the next.
+        thick: metres from one thick line to the next.
+        fade: metres from the camera at which lines have faded.
+    """
+
+    thin: float
+    thick: float
+    fade: float
+
+
+def lines_at(distance: float) -> Lines:
+    """The lines for a camera at this distance in metres from the point that it looks at."""
+    thin, thick = _FINE if distance < _COARSE_FROM else _COARSE
+    return Lines(thin, thick, max(_FADED, _FADED_PART * distance))
+
+
+def shadow_opacity(part: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Opacity of the shadow, part of the way from its edge, 0, to its middle, 1."""
+    return _DARKEST * part**2 * (3 - 2 * part)  # smooth at both ends
 
 
 @dataclass(frozen=True)
@@ -109,7 +138,8 @@ class Floor:
         self._foot, self._covers = foot, False
         self._grid.position = (0.0, 0.0, 0.0) if foot is None else foot.centre
         if foot is not None:
-            self._shadow.render_width, self._shadow.render_height = (_SOFT * foot.size).tolist()
+            size = SHADOW_SIZE * foot.size
+            self._shadow.render_width, self._shadow.render_height = size.tolist()
         self._show()
 
     def show(self, moving: NDArray[np.float64]) -> None:
@@ -121,9 +151,9 @@ class Floor:
 
     def fit(self, distance: float) -> None:
         """Suit the lines to the distance in metres from the camera to the point it looks at."""
-        lines = _FINE if distance < _COARSE_FROM else _COARSE
-        self._grid.cell_size, self._grid.section_size = lines
-        self._grid.fade_distance = max(_FADED, _FADED_PART * distance)
+        lines = lines_at(distance)
+        self._grid.cell_size, self._grid.section_size = lines.thin, lines.thick
+        self._grid.fade_distance = lines.fade
 
     def _show(self) -> None:
         self._grid.visible = self._wanted and self._known
@@ -138,6 +168,5 @@ def _soft_disc() -> NDArray[np.uint8]:
     x, y = np.meshgrid(along, along)
     part = np.clip(1.0 - np.hypot(x, y), 0.0, 1.0)
     image = np.zeros((_PIXELS, _PIXELS, 4), dtype=np.uint8)
-    # Smooth at both ends.
-    image[..., 3] = np.round(255 * _DARKEST * part**2 * (3 - 2 * part))
+    image[..., 3] = np.round(255 * shadow_opacity(part))
     return image

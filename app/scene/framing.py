@@ -5,6 +5,7 @@ import viser
 
 from app.analysis.pairs import Pair
 from app.scene.camera import Camera
+from app.scene.drawn_flow import moving_ends
 from app.scene.lens import aspect_of
 from app.scene.scale_bar import ScaleBar, scale_bar
 from app.scene.scene import Scene
@@ -14,6 +15,7 @@ Vector = tuple[float, float, float]
 
 _UP: Vector = (0.0, 0.0, 1.0)
 _SAME_SHAPE = 0.02  # relative change of the aspect ratio
+_SEEN = 0.1  # share of what moves that a picture shows at least
 _SAME_PLACE = 0.01  # relative to the distance of the look-at point
 
 
@@ -30,7 +32,7 @@ class Framing:
 
     def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
         self._client, self._scene = client, scene
-        self._waiting: Camera | None = None
+        self._waiting: tuple[Camera, Vector] | None = None
         self._blank = False
         self._taken: tuple[str, float, Camera] | None = None
 
@@ -39,16 +41,27 @@ class Framing:
         """Scale bar of the page's camera, in parts of the scene's height instead of pixels."""
         return scale_bar(self._scene.camera(), aspect_of(self._client.camera), 1.0)
 
-    def start_from(self, camera: Camera) -> None:
-        """Show the next recording from this camera, instead of from its first view."""
-        self._waiting = camera
+    @property
+    def up(self) -> Vector:
+        """What points up in the picture, (3,) in the drawing."""
+        x, y, z = np.asarray(self._client.camera.up_direction).tolist()
+        return x, y, z
+
+    def start_from(self, camera: Camera, up: Vector | None = None) -> None:
+        """Show the next recording from this camera, instead of from its first view.
+
+        Args:
+            camera: the pose.
+            up: (3,) what points up in the picture, in the drawing; None for the z axis.
+        """
+        self._waiting = camera, up or _UP
 
     def begin(self, pair: Pair) -> None:
         """Move the camera to the first view of a newly opened recording."""
         waiting, self._waiting = self._waiting, None
         self._blank = waiting is None and len(pair.target.points) == 0
         if waiting:
-            self.look(waiting)
+            self.look(*waiting)
         else:
             self.set_view(pair, SLANTED)
 
@@ -68,6 +81,17 @@ class Framing:
         self._taken = None
         self._client.camera.up_direction = up
         self._scene.set_camera(camera)
+
+    def misses(self, pair: Pair) -> bool:
+        """Whether nearly all that moves in a pair, or else all points, are out of the picture."""
+        moving, _ = moving_ends(pair)
+        points = moving if len(moving) else pair.target.points
+        if len(points) == 0:
+            return False
+        seen = self._scene.camera_in_fixed_frame().sees(
+            points, self._scene.in_fixed_frame(np.array(self.up)), aspect_of(self._client.camera)
+        )
+        return float(seen.mean()) < _SEEN
 
     def retry_first_view(self, pair: Pair) -> None:
         """Compute the first view again if its frame was empty and this one has points."""

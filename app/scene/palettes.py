@@ -26,7 +26,7 @@ class Palette:
         second: of B's arrows where A and B are drawn together; A's have `flow`.
         picked: of the picked cluster.
         truth: of the arrow of the true velocity.
-        ghost: of the true object.
+        true_object: of the true object.
         frustum: of the sensors that see nothing moving.
         grid: of the grid's thin and thick lines.
         floor: of the plane that a robot stands on.
@@ -43,7 +43,7 @@ class Palette:
     second: Colour
     picked: Colour
     truth: Colour
-    ghost: Colour
+    true_object: Colour
     frustum: Colour
     grid: tuple[Colour, Colour]
     floor: Colour
@@ -97,7 +97,7 @@ _PAPER_LIGHT = Palette(
     second=(130, 50, 200),
     picked=PICKED,
     truth=TRUTH,
-    ghost=(248, 178, 92),
+    true_object=(248, 178, 92),
     frustum=FRUSTUM,
     grid=_LIGHT_GRID,
     floor=(232, 235, 240),
@@ -114,7 +114,7 @@ _PAPER_DARK = Palette(
     second=(185, 120, 255),
     picked=(255, 80, 190),
     truth=(255, 160, 40),
-    ghost=(236, 156, 66),
+    true_object=(236, 156, 66),
     frustum=(150, 90, 90),
     grid=_DARK_GRID,
     floor=(34, 37, 43),
@@ -133,7 +133,7 @@ _ALL = {
         flow=(0, 138, 100),
         second=(95, 60, 20),
         truth=(170, 70, 130),
-        ghost=(222, 170, 202),
+        true_object=(222, 170, 202),
         frustum=(160, 140, 130),
     ),
     (COLOUR_BLIND, True): replace(
@@ -144,7 +144,7 @@ _ALL = {
         flow=(40, 205, 155),
         second=(240, 228, 66),
         truth=(225, 140, 190),
-        ghost=(206, 130, 178),
+        true_object=(206, 130, 178),
         frustum=(130, 112, 100),
     ),
 }

@@ -19,10 +19,11 @@ class SceneRenderer:
     Args:
         client: whose browser renders.
         scene: drawn in that browser.
+        timeout: seconds that a picture may take.
     """
 
-    def __init__(self, client: viser.ClientHandle, scene: Scene) -> None:
-        self._client, self._scene = client, scene
+    def __init__(self, client: viser.ClientHandle, scene: Scene, timeout: float = _TIMEOUT) -> None:
+        self._client, self._scene, self._timeout = client, scene, timeout
 
     def size(self) -> tuple[int, int]:
         """Width and height of the scene in the page, CSS pixels."""
@@ -57,7 +58,7 @@ class SceneRenderer:
             position=placed.position,
             fov=camera.fov,
             transport_format="png",
-            timeout=_TIMEOUT,
+            timeout=self._timeout,
         )
 
 

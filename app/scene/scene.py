@@ -11,7 +11,13 @@ from app.analysis.pairs import Pair
 from app.scene.camera import Camera
 from app.scene.canvas import Canvas
 from app.scene.clouds_view import CloudsView
-from app.scene.drawn_clouds import STATIC_SIZE, drawn_source, drawn_target
+from app.scene.drawn_clouds import (
+    STATIC_SIZE,
+    as_drawn,
+    drawn_source,
+    drawn_target,
+    something_moves,
+)
 from app.scene.drawn_flow import drawn_flow, drawn_second_flow
 from app.scene.first_view import View
 from app.scene.flow_colours import speed_limit
@@ -31,7 +37,7 @@ from app.scene.views import SLANTED, Projection, named_view
 from estimator import ClusterResult
 from recordings import Recording
 
-_REFERENCE_HEIGHT = 720  # pixels, the height of the picture that sizes in pixels refer to
+_REFERENCE_HEIGHT = 720  # pixels of the picture that sizes in pixels refer to
 
 
 class Scene:
@@ -53,12 +59,12 @@ class Scene:
         self._side = A
         self._marked: ClusterResult | None = None
         self._speed_limit = 0.0
+        self._moved = False  # ever in this recording, whose still frames must not flash up
         self._surroundings = Surroundings(canvas.scene, settings)
         for root in (ROOT, SENSORS, FRUSTUMS):
             canvas.scene.add_frame(root, show_axes=False)
         self._object = TrueObjectView(canvas.scene, settings.palette)
         self._clouds = CloudsView(canvas.scene)
-        self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         self._lens: Lens | None = None
         self._camera: Camera | None = None
         show_layers(self._canvas.scene, self._settings.layers)
@@ -78,6 +84,7 @@ class Scene:
         self._object.open(recording.object_meshes)
         self._shown = None
         self._speed_limit = 0.0
+        self._moved = False
 
     def place_camera(self, pair: Pair, view: str = SLANTED, aspect: float = 16 / 9) -> Camera:
         """Move the camera to a named view of a pair, and return its pose.
@@ -107,7 +114,14 @@ class Scene:
     def legend(self) -> Legend:
         """Legend of the current drawing."""
         side = None if self._second is None else self._side
-        return legend(self._shown, self._settings, self._speed_limit, side, self._marked)
+        return legend(
+            self._shown, self._as_drawn, self._speed_limit, side, self._marked, self._second
+        )
+
+    @property
+    def _as_drawn(self) -> ViewSettings:
+        """The settings; until something moves, nothing is dimmed."""
+        return as_drawn(self._settings, self._moved)
 
     @contextmanager
     def picture_sizes(
@@ -146,6 +160,10 @@ class Scene:
         camera = self._canvas.camera
         return Camera.of(np.asarray(camera.position), np.asarray(camera.look_at), camera.fov)
 
+    def camera_in_fixed_frame(self) -> Camera:
+        """Current camera in the recording's fixed frame."""
+        return self.camera().turned(self._surroundings.R_drawing_fixed.T)
+
     def set_camera(self, camera: Camera) -> None:
         """Set the camera."""
         handle, position, look_at = self._canvas.camera, camera.position, camera.look_at
@@ -161,7 +179,7 @@ class Scene:
     def _adapt(self, camera: Camera) -> None:
         self._camera = camera
         self._surroundings.fit(camera)
-        self._place_label()
+        self._fit_selection()
         lens = Lens.of(camera)
         if self._lens is None or not self._lens.similar(lens):
             self._lens = lens
@@ -191,6 +209,7 @@ class Scene:
         self._surroundings.show(pair, self._robot)
         self._object.show(pair)
         self._speed_limit = speed_limit(pair, self._speed_limit)
+        self._moved |= something_moves(pair)
         self.mark(pair, picked)
 
     def mark(self, pair: Pair, cluster: ClusterResult | None) -> None:
@@ -201,14 +220,13 @@ class Scene:
             self._selection = SelectionView(self._canvas.scene, palette, self._clouds.radius)
         if self._selection:
             self._selection.show(pair, cluster, self._surroundings.R_drawing_fixed[2])
-        self._place_label()
-        self._show_clouds(pair)
+        self._fit_selection()
         self._show_flow(pair)
+        self._show_clouds(pair)
 
-    def _place_label(self) -> None:
+    def _fit_selection(self) -> None:
         if self._selection and self._camera:
-            R_fixed_drawing = self._surroundings.R_drawing_fixed.T
-            self._selection.place_label(self._camera.turned(R_fixed_drawing))
+            self._selection.fit(self._camera.turned(self._surroundings.R_drawing_fixed.T))
 
     def in_fixed_frame(self, vector: NDArray[np.float64]) -> NDArray[np.float64]:
         """Transform a point or direction (3,) of the drawing into the recording's fixed frame."""
@@ -222,8 +240,6 @@ class Scene:
             self._object.paint(settings.palette)
             if self._selection:
                 self._selection.paint(settings.palette)
-        if settings.static_scene != before.static_scene:
-            self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         if settings.point_size != before.point_size and self._lens:
             self._fit(self._lens)
         if self._shown:
@@ -262,9 +278,11 @@ class Scene:
 
     def _show_clouds(self, pair: Pair) -> None:
         """Draw both clouds, what does not move as the settings say, without picked points."""
+        settings = self._as_drawn
+        self._clouds.size_static(STATIC_SIZE[settings.static_scene])
         for cloud, drawn in (
-            (self._clouds.target, drawn_target(pair, self._settings, self._marked)),
-            (self._clouds.source, drawn_source(pair, self._settings, self._marked)),
+            (self._clouds.target, drawn_target(pair, settings, self._marked)),
+            (self._clouds.source, drawn_source(pair, settings, self._marked)),
         ):
             cloud.show(drawn.points, drawn.colours, drawn.moving)
 
@@ -272,9 +290,8 @@ class Scene:
         settings, R = self._settings, self._surroundings.R_drawing_fixed
         side = None if self._second is None else self._side
         flow = drawn_flow(pair, settings, self._speed_limit, R, side, self._marked)
-        second = drawn_second_flow(self._second, settings, self._side)
         self._clouds.show_flow(flow)
-        self._clouds.show_second_flow(second)
+        self._clouds.show_second_flow(drawn_second_flow(self._second, settings, self._side))
         if self._sensors:
             moving = pair.source.sensor[pair.flow.moving] if pair.source and pair.flow else ()
             self._sensors.highlight(map(int, moving), settings.palette)

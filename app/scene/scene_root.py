@@ -14,6 +14,9 @@ FIXED = "/fixed"
 
 AXES = f"{FIXED}/axes"
 
+AXIS_LENGTH, AXIS_RADIUS = 0.12, 0.004
+"""Of the fixed frame's axes, metres."""
+
 
 class SceneRoot:
     """Lights, and the fixed frame with its axes."""
@@ -21,7 +24,7 @@ class SceneRoot:
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
         self._lamps = _light(scene)
         self._fixed = scene.add_frame(FIXED, show_axes=False)
-        scene.add_frame(AXES, axes_length=0.12, axes_radius=0.004, origin_radius=0.0)
+        scene.add_frame(AXES, axes_length=AXIS_LENGTH, axes_radius=AXIS_RADIUS, origin_radius=0.0)
         self.paint(palette)
 
     def paint(self, palette: Palette) -> None:

@@ -17,7 +17,9 @@ PICKED_NODE = f"{FIXED}/picked"
 
 _LARGER = 1.2  # radius of a picked point, relative to others that move
 _THICKNESS = 1.0  # pixels, of the box's lines
-_IN_VIEW = 0.6  # of half the field of view, within which the label is kept
+_IN_VIEW = 0.6  # of half the field of view, within which the label's cluster is looked for
+_TOP = 0.85  # of half the picture's height, up to which the label is kept
+_BESIDE = 1.4  # half a picture's width, relative to half its height
 _MARGIN = 0.015  # metres between the points and the box around them
 _CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
 _EDGES = np.array(
@@ -56,6 +58,7 @@ class SelectionView:
         )
         self._label = scene.add_label(f"{PICKED_NODE}/label", "", anchor="bottom-center")
         self._drawn: NDArray[np.float64] = np.zeros((0, 3))
+        self._corners: NDArray[np.float64] = np.zeros((8, 3))
         self._up = np.array([0.0, 0.0, 1.0])
 
     def show(self, pair: Pair, cluster: ClusterResult | None, up: NDArray[np.float64]) -> None:
@@ -72,21 +75,23 @@ class SelectionView:
         points = points_of(pair, cluster)
         self._drawn, self._up = points, up
         self.points.points = pair.source.points[cluster.source].astype(np.float32)
-        self._box.points = box_around(points)
-        self._label.text = f"Cluster {cluster.index}: {cluster.label.name.lower()}"
+        self._corners = corners_around(points)
+        self._box.points = self._corners[_EDGES].astype(np.float32)
+        self._label.text = label_text(cluster)
         self._frame.visible = True
 
-    def place_label(self, camera: Camera) -> None:
-        """Put the label above what a camera, in the fixed frame, sees of the cluster."""
+    def fit(self, camera: Camera) -> None:
+        """Suit a camera in the fixed frame: the label stays in its picture, a huge box goes."""
         if len(self._drawn) == 0:
             return
+        self._box.visible = _mostly_seen(self._corners, camera)
         rays = self._drawn - camera.position
         away = np.linalg.norm(np.cross(rays, camera.direction), axis=1)
         seen = away < (rays @ camera.direction) * np.tan(_IN_VIEW * camera.fov / 2)
         points = self._drawn[seen] if seen.any() else self._drawn
         middle = points.mean(axis=0)
         above = float(((points - middle) @ self._up).max()) + 2 * _MARGIN
-        self._label.position = middle + above * self._up
+        self._label.position = _kept_below_top(middle + above * self._up, self._up, camera)
 
     def paint(self, palette: Palette) -> None:
         """Apply a palette."""
@@ -102,8 +107,38 @@ class SelectionView:
         self.points.point_size = _LARGER * metres
 
 
+def label_text(cluster: ClusterResult) -> str:
+    """What is written above a picked cluster."""
+    return f"Cluster {cluster.index}: {cluster.label.name.lower()}"
+
+
 def box_around(points: NDArray[np.float64]) -> NDArray[np.float32]:
     """Edges (12, 2, 3) of the axis-aligned bounding box of points (N, 3), N >= 1, with a margin."""
+    return corners_around(points)[_EDGES].astype(np.float32)
+
+
+def corners_around(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners (8, 3) of the axis-aligned bounding box of points (N, 3), N >= 1, with a margin."""
     low, high = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
-    corners = low + _CORNERS * (high - low)
-    return corners[_EDGES].astype(np.float32)
+    return low + _CORNERS * (high - low)
+
+
+def _mostly_seen(corners: NDArray[np.float64], camera: Camera) -> bool:
+    """Whether at least half of a box's corners (8, 3) are about in a camera's picture."""
+    rays = corners - camera.position
+    depth = rays @ camera.direction
+    aside = np.linalg.norm(rays - depth[:, None] * camera.direction, axis=1)
+    return bool(np.count_nonzero(aside < _BESIDE * depth * np.tan(camera.fov / 2)) >= 4)
+
+
+def _kept_below_top(
+    place: NDArray[np.float64], up: NDArray[np.float64], camera: Camera
+) -> NDArray[np.float64]:
+    """A place (3,) moved down as far as a camera's picture needs it."""
+    across = up - (up @ camera.direction) * camera.direction
+    length = np.linalg.norm(across)
+    if length < 1e-3:
+        return place  # seen from straight above
+    across, ray = across / length, place - camera.position
+    highest = _TOP * np.tan(camera.fov / 2) * float(ray @ camera.direction)
+    return place - max(float(ray @ across) - highest, 0.0) * across

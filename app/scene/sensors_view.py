@@ -34,6 +34,7 @@ class SensorsView:
         self._sensors = tuple(sensors)
         self._ringed = False
         self._thicker = 1.0
+        self._highlighted: dict[int, tuple[bool, Palette]] = {}  # setting a property takes time
         self._names = [node_name(index, sensor.name) for index, sensor in enumerate(sensors)]
         self._bodies = [
             scene.add_frame(f"{SENSORS}/{name}", show_axes=False, visible=False)
@@ -69,6 +70,9 @@ class SensorsView:
         seeing = set(seeing)
         for index, frustum in enumerate(self._frustums):
             sees = index in seeing
+            if self._highlighted.get(index) == (sees, palette):
+                continue
+            self._highlighted[index] = (sees, palette)
             frustum.color = palette.flow if sees else palette.frustum
             frustum.thickness = self._thicker * (SEEING if sees else THICKNESS)
             self._faces[index].visible = sees

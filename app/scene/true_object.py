@@ -29,13 +29,13 @@ class TrueObjectView:
 
     def __init__(self, scene: viser.SceneApi, palette: Palette) -> None:
         self._scene = scene
-        self._colour = palette.ghost
+        self._colour = palette.true_object
         self._surfaces: dict[str, viser.MeshHandle] = {}
         scene.add_frame(TRUE_OBJECT, show_axes=False)
         self.points = scene.add_point_cloud(
             _POINTS,
             np.zeros((0, 3)),
-            palette.ghost,
+            palette.true_object,
             point_size=0.004,
             point_shape="circle",
             point_shading="flat",
@@ -71,10 +71,10 @@ class TrueObjectView:
 
     def paint(self, palette: Palette) -> None:
         """Apply a palette."""
-        self._colour = palette.ghost
-        self.points.colors = np.array(palette.ghost, dtype=np.uint8)
+        self._colour = palette.true_object
+        self.points.colors = np.array(palette.true_object, dtype=np.uint8)
         for surface in self._surfaces.values():
-            surface.color = palette.ghost
+            surface.color = palette.true_object
 
     def fit(self, radius: float) -> None:
         """Set the radius of a point that moves, metres."""

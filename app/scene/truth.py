@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from app.analysis.pairs import Pair
 from estimator import truly_moves
 
-_ABOVE = 0.12  # height of the arrow above the moving points, metres
+_ABOVE = 0.1  # height of the arrow above all moving points, metres
 
 
 def truth_arrow(
@@ -23,7 +23,7 @@ def truth_arrow(
         return np.zeros(3), None
     points = pair.source.points[pair.truly_moving]
     middle = np.median(points, axis=0)
-    above = float(np.percentile((points - middle) @ up, 80)) + _ABOVE
+    above = float(((points - middle) @ up).max()) + _ABOVE
     return middle + above * up, velocity
 
 

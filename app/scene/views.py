@@ -7,7 +7,14 @@ from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from app.scene.drawn_flow import moving_ends
-from app.scene.first_view import View, box_distance, first_view, near_corners, percentile_corners
+from app.scene.first_view import (
+    View,
+    filling_view,
+    first_view,
+    surroundings,
+    without_outliers,
+)
+from app.scene.truth import truth_arrow
 
 SLANTED, ABOVE, FRONT = "Slanted", "From above", "From the front"
 SENSORS, FIT = "From the sensors", "Fit what moves"
@@ -16,9 +23,10 @@ VIEWS = (SLANTED, ABOVE, FRONT, SENSORS, FIT)
 VIEW_FLAGS = {"3d": SLANTED, "top": ABOVE, "front": FRONT, "robot": SENSORS, "fit": FIT}
 """{name on the command line: view}."""
 
-_MARGIN = 1.12
-_SMALLEST = 0.1  # metres, smallest half extent of a box that fills the picture
+_SMALLEST = 0.12  # metres, smallest half extent of what fills the picture
 _LEAN = 1e-3  # tilt of the view from above, which keeps its up direction defined
+_DIRECTIONS = {ABOVE: np.array([0.0, -_LEAN, 1.0]), FRONT: np.array([1.0, 0.0, 0.0])}
+"""{view: vector (3,) from what is seen to the camera}, about a unit long."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +40,6 @@ class Projection:
 
     fov: float
     aspect: float
-
-    def distance(self, width: float, height: float) -> float:
-        """Distance at which an object of this width and height fills the picture, metres."""
-        slope = np.tan(self.fov / 2)
-        return _MARGIN / 2 * max(height / slope, width / (slope * self.aspect), 0.3)
 
 
 def named_view(
@@ -61,38 +64,26 @@ def named_view(
     poses = poses[placed]
     sensors = poses[:, :3, 3] @ R_drawing_fixed.T
     axes = poses[:, :3, 2] @ R_drawing_fixed.T
-    slanted = first_view(
-        pair.target.points,
-        poses,
-        R_drawing_fixed,
-        projection.fov,
-        projection.aspect,
-        [*moving_ends(pair), _landmarks(pair)],
-    )
-    moving, tips = (ends @ R_drawing_fixed.T for ends in moving_ends(pair))
+    moving = np.vstack([without_outliers(ends @ R_drawing_fixed.T) for ends in moving_ends(pair)])
+    fov, aspect = projection.fov, projection.aspect
     if name == SENSORS and len(sensors):
         # Only sensors with a known pose have points.
         owner = (np.cumsum(placed) - 1)[pair.target.sensor]
-        return _from_sensor(points, owner, sensors, axes, moving)
+        starts = moving_ends(pair)[0] @ R_drawing_fixed.T
+        return _from_sensor(points, owner, sensors, axes, starts)
+    truth = _truth_ends(pair, R_drawing_fixed[2])
+    important = np.vstack([moving, np.vstack([_landmarks(pair), truth]) @ R_drawing_fixed.T])
+    if name in _DIRECTIONS:
+        seen = np.vstack([surroundings(points, sensors), important])
+        return filling_view(seen, _DIRECTIONS[name], fov, aspect)
+    in_fixed = important @ R_drawing_fixed
+    slanted = first_view(pair.target.points, poses, R_drawing_fixed, fov, aspect, in_fixed)
     if name == FIT:
-        seen = np.vstack([moving, tips]) if len(moving) else np.vstack([points, sensors])
-        return _fitted(seen, projection, before or slanted) if len(seen) else slanted
-    box = np.vstack(
-        [
-            *near_corners(points, sensors),
-            *percentile_corners(moving),
-            *percentile_corners(tips),
-            *percentile_corners(_landmarks(pair) @ R_drawing_fixed.T),
-        ]
-    )
-    low, high = box.min(axis=0), box.max(axis=0)
-    centre, (x, y, z) = (low + high) / 2, high - low
-    if name == ABOVE:
-        distance = projection.distance(x, y) + z / 2
-        return View(centre + distance * np.array([0.0, -_LEAN, 1.0]), centre)
-    if name == FRONT:
-        distance = projection.distance(y, z) + x / 2
-        return View(centre + distance * np.array([1.0, 0.0, 0.0]), centre)
+        seen = moving if len(moving) else np.vstack([without_outliers(points), sensors])
+        kept = before or slanted
+        direction = kept.position - kept.look_at
+        direction = direction / np.linalg.norm(direction)
+        return filling_view(seen, direction, fov, aspect, _SMALLEST) if len(seen) else slanted
     return slanted
 
 
@@ -100,6 +91,16 @@ def _landmarks(pair: Pair) -> NDArray[np.float64]:
     """Origins (N, 3) of the robot's links and of the true objects, where known."""
     poses = np.array([*pair.link_poses.values(), *pair.object_poses.values()]).reshape(-1, 4, 4)
     return poses[np.isfinite(poses).all(axis=(1, 2)), :3, 3]
+
+
+def _truth_ends(pair: Pair, up: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Both ends (2, 3) of the truth's arrow, (0, 3) without one."""
+    start, velocity = truth_arrow(pair, up)
+    return (
+        np.zeros((0, 3))
+        if velocity is None
+        else np.stack([start, start + pair.interval * velocity])
+    )
 
 
 def _from_sensor(
@@ -133,14 +134,3 @@ def _from_sensor(
     best = int(np.lexsort((depths, -counts))[0])
     depth = max(depths[best], 0.5) if np.isfinite(depths[best]) else 0.5
     return View(sensors[best] + 0.01 * axes[best], sensors[best] + depth * axes[best])
-
-
-def _fitted(points: NDArray[np.float64], projection: Projection, before: View) -> View:
-    """View of points (N, 3), N >= 1, in the direction of another view."""
-    # Outliers would push the camera away.
-    low, high = np.percentile(points, [2, 98], axis=0)
-    centre, half = (low + high) / 2, np.maximum((high - low) / 2, _SMALLEST)
-    direction = before.position - before.look_at
-    direction = direction / np.linalg.norm(direction)
-    distance = box_distance(half, direction, np.tan(projection.fov / 2), projection.aspect)
-    return View(centre + _MARGIN * distance * direction, centre)

@@ -34,7 +34,6 @@ from app.session.commands import (
 )
 from app.session.followed_sides import FollowedSides
 from app.session.links import SavedSession, from_token
-from app.session.open_requests import OpeningError
 from app.session.queue import CommandQueue
 from app.session.reload import Reloads
 from app.session.tasks import Tasks
@@ -45,6 +44,8 @@ from estimator import Parameters
 _LOG = logging.getLogger(__name__)
 _NOT_DONE, _NOT_SHOWN = "That was not done", "Not everything can be shown"
 """Titles of errors."""
+_PATIENCE = 60.0
+"""Seconds that a page has to answer: a slow computer may be busy with loading it."""
 
 
 @dataclass(frozen=True)
@@ -134,12 +135,17 @@ class Session:
         """Token of this session, and the session to resume from a link or a reload, if any."""
         token, saved = str(uuid4()), None
         try:
-            if link := take_link(self._client, timeout=2.0):
+            if link := take_link(self._client, timeout=_PATIENCE):
                 saved = from_token(link)
             else:
-                saved = self._shared.reloads.take(take_token(self._client, timeout=2.0))
-        except (RuntimeError, TimeoutError):
+                saved = self._shared.reloads.take(take_token(self._client, timeout=_PATIENCE))
+        except RuntimeError:
             pass  # a browser without storage starts a new session
+        except TimeoutError:
+            sentence = (
+                "Its browser did not say in time what it showed before; reload it to try again."
+            )
+            self._report("The page begins anew", sentence)
         except InputError as error:
             self._report("The link cannot be followed", str(error))
         except Exception:
@@ -152,7 +158,7 @@ class Session:
 
     def _prefers_dark(self) -> bool:
         try:
-            return prefers_dark(self._client, timeout=2.0)
+            return prefers_dark(self._client, timeout=_PATIENCE)
         except (RuntimeError, TimeoutError):
             return False  # of a browser without storage
 
@@ -222,8 +228,6 @@ class Session:
         """
         try:
             action()
-        except OpeningError as error:
-            self._report(error.title, str(error))
         except UserError as error:
             self._report(failed, str(error))
         except Exception as error:

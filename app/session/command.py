@@ -1,7 +1,8 @@
 """Commands that callbacks of the page post, and the session's thread applies."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol, Self
+from typing import Any, Protocol, Self
 
 from app.session.workbench import Workbench
 
@@ -29,6 +30,21 @@ class LatestWins:
     def merged_with(self, earlier: Self) -> Self:
         """Return this command, the later one."""
         return self
+
+
+@dataclass(frozen=True)
+class LatestOfEach:
+    """Command that sets named values, of each of which only the latest counts.
+
+    Attributes:
+        values: {name: value}.
+    """
+
+    values: Mapping[str, Any]
+
+    def merged_with(self, earlier: Self) -> Self:
+        """Both changes, the later value of each name."""
+        return type(self)({**earlier.values, **self.values})
 
 
 class Background:

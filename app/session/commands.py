@@ -7,7 +7,7 @@ from typing import Any, Self
 
 from app.analysis.catalogue import About
 from app.errors import InputError
-from app.session.command import Background, LatestWins, Repeated
+from app.session.command import Background, LatestOfEach, LatestWins, Repeated
 from app.session.followed_survey import SurveyUpdate
 from app.session.links import SavedSession
 from app.session.tasks import TaskEvent
@@ -133,14 +133,8 @@ class ResetParameters:
 
 
 @dataclass(frozen=True)
-class ChangeView:
+class ChangeView(LatestOfEach):
     """Change settings of the drawing, {name: value}."""
-
-    values: Mapping[str, Any]
-
-    def merged_with(self, earlier: Self) -> Self:
-        """Both changes, the later value of each setting."""
-        return type(self)({**earlier.values, **self.values})
 
     def apply(self, workbench: Workbench) -> None:
         """Redraw with them."""

@@ -19,20 +19,27 @@ class ParameterHistory:
         self._redo: list[Mapping[str, Any]] = []
         self._last = _NOTHING  # names of the last change, and its time
 
-    def note(self, before: Parameters, after: Parameters, now: float | None) -> None:
+    def separate(self) -> None:
+        """Let the next change begin an entry of its own."""
+        self._last = _NOTHING
+
+    def note(
+        self, before: Parameters, after: Parameters, now: float | None, *, held: bool = False
+    ) -> None:
         """Record a change.
 
         Args:
             before: the parameters before it.
             after: the parameters after it.
             now: seconds of a monotonic clock; None for a change outside drags, such as a reset.
+            held: whether a slider is still pressed since the last change, however long ago.
         """
         change = _differences(before, after)
         if not change:
             return
         names = frozenset(change)
         last, then = self._last
-        dragged = now is not None and last == names and now - then < _DRAG
+        dragged = now is not None and last == names and (held or now - then < _DRAG)
         if not (self._undo and dragged):
             self._undo.append(change)
             del self._undo[:-_SIZE]
@@ -54,7 +61,7 @@ class ParameterHistory:
             return None
         after = changed(parameters, stack.pop())
         other.append(_differences(parameters, after))
-        self._last = _NOTHING  # the next change starts an entry of its own
+        self.separate()
         return after
 
 

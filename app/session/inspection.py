@@ -5,13 +5,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.analysis.answers import Answer, answer
 from app.analysis.library import Opened
 from app.analysis.moving_targets import moving_targets
 from app.analysis.pairs import Pair
-from app.analysis.pointing import PointHit, Sight, point_at
+from app.analysis.pointing import DrawnPoints, PointHit, Sight, point_at
 from app.analysis.zones import (
     SOURCE,
     TARGET,
@@ -87,6 +86,7 @@ class Inspection:
         self._view, self._scene = view, scene
         self._pointed: Zone | None = None
         self._pinned: Zone | None = None
+        self._awaited: tuple[int | None, Zone | None] = None, None
         self._opened: Opened | None = None
         self._pair: Pair | None = None
         self._settings = ViewSettings()
@@ -141,6 +141,15 @@ class Inspection:
         if sensor is None or (self._opened and 0 <= sensor < len(self._opened.recording.sensors)):
             self.inspected = replace(self.inspected, selected=sensor)
 
+    @property
+    def pinned(self) -> Zone | None:
+        """The pinned zone, None without one."""
+        return self._pinned
+
+    def start_from(self, selected: int | None, pinned: Zone | None) -> None:
+        """Select this sensor and pin this zone in the next recording, as far as it has them."""
+        self._awaited = selected, pinned
+
     def release(self) -> None:
         """Let go of the pinned zone and of the selected sensor."""
         self._pinned = None
@@ -183,6 +192,7 @@ class Inspection:
             self._opened = opened
             self._point(None, None)
             self.release()
+            self._begin()
         self._view.adapt_size()
         wanted = (settings, self._pointed, self._pinned, self.inspected.selected)
         if pair is self._pair and wanted == self._done:
@@ -197,6 +207,12 @@ class Inspection:
             )
             self.inspected = replace(self.inspected, pointed=pointed, pinned=pinned)
             self._draw(opened, pair, max_range, settings)
+
+    def _begin(self) -> None:
+        (selected, pinned), self._awaited = self._awaited, (None, None)
+        self.select(selected)
+        if pinned is not None:
+            self.pin(pinned)
 
     def _draw(self, opened: Opened, pair: Pair, max_range: float, settings: ViewSettings) -> None:
         inspected, palette = self.inspected, settings.palette
@@ -243,15 +259,18 @@ class Inspection:
         return point if sensor is None else sensor
 
 
-def drawn_points(pair: Pair, settings: ViewSettings) -> dict[Side, NDArray[np.bool_]]:
-    """{cloud: (N,) whether a point is drawn}, for the clouds that are."""
-    drawn: dict[Side, NDArray[np.bool_]] = {}
+def drawn_points(pair: Pair, settings: ViewSettings) -> dict[Side, DrawnPoints]:
+    """{cloud: its drawn points}, for the clouds that are drawn; what moves stands out."""
+    drawn: dict[Side, DrawnPoints] = {}
     layers: tuple[tuple[Side, str], ...] = ((SOURCE, "Source"), (TARGET, "Target"))
     for side, layer in layers:
         cloud = cloud_of(pair, side)
         if cloud is None or layer not in settings.layers:
             continue
-        drawn[side] = np.ones(len(cloud.points), dtype=bool)
-        if settings.static_scene == HIDDEN and pair.flow is not None:
-            drawn[side] = pair.flow.moving if side == SOURCE else moving_targets(pair)
+        clear = shown = np.ones(len(cloud.points), dtype=bool)
+        if pair.flow is not None:
+            clear = pair.flow.moving if side == SOURCE else moving_targets(pair)
+        if settings.static_scene == HIDDEN:
+            shown = clear
+        drawn[side] = DrawnPoints(shown, clear)
     return drawn

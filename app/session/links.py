@@ -11,8 +11,10 @@ from pydantic import BaseModel, ConfigDict, Field, JsonValue
 from app.analysis.comparison import A, B, Comparison
 from app.analysis.parameter_files import from_text
 from app.analysis.quantities import QUANTITIES
+from app.analysis.zones import Side, Zone
 from app.errors import InputError
 from app.scene.camera import Camera
+from app.scene.framing import Vector
 from app.scene.settings import ViewSettings
 from app.session.clock import Playback
 from app.session.linked_view import LinkedView, one_of
@@ -21,7 +23,8 @@ from estimator import Parameters, to_nested
 _LONGEST = 6000  # characters of a link's token
 _FARTHEST = 1e5  # metres
 _FRAMES = 10**9  # more than any recording has
-_CLUSTERS = 10**6  # more than any pair has
+_CLUSTERS = 10**6  # more than any pair has; and more than there are sensors, rows, columns
+_UP: Vector = (0.0, 0.0, 1.0)
 _DAMAGED = "The link is damaged; copy it once more."
 
 
@@ -40,6 +43,9 @@ class SavedSession:
         playing: whether playback is running.
         picked: index of the picked cluster, None without one.
         plotted_pair: quantities (x, y) plotted against each other, None for none.
+        selected: index of the selected sensor, None without one.
+        pinned: the pinned zone, None without one.
+        up: (3,) what points up in the camera's picture, in the drawing; None for the z axis.
     """
 
     label: str
@@ -52,6 +58,9 @@ class SavedSession:
     playing: bool = False
     picked: int | None = None
     plotted_pair: tuple[str, str] | None = None
+    selected: int | None = None
+    pinned: Zone | None = None
+    up: Vector | None = None
 
     def token(self) -> str:
         """Encode all of it as a URL-safe token, but for what is personal to the sender.
@@ -75,6 +84,12 @@ class SavedSession:
             content["picked"] = self.picked
         if self.plotted_pair is not None:
             content["plotted"] = self.plotted_pair
+        if self.selected is not None:
+            content["sensor"] = self.selected
+        if (zone := self.pinned) is not None:
+            content["zone"] = zone.side, zone.sensor, zone.row, zone.column
+        if self.camera and self.up and self.up != _UP:
+            content["up"] = [round(number, 4) for number in self.up]
         text = json.dumps(content, separators=(",", ":"))
         return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
 
@@ -91,6 +106,7 @@ def from_token(token: str) -> SavedSession:
         text = base64.b64decode(token + "=" * (-len(token) % 4), altchars=b"-_", validate=True)
         link = _Link.model_validate_json(text)
         camera = link.camera and _camera(link.camera)
+        up = link.up and _direction(link.up)
     except ValueError as error:  # includes those of base64 and pydantic
         raise InputError(_DAMAGED) from error
     comparison = link.comparison and Comparison(
@@ -105,6 +121,9 @@ def from_token(token: str) -> SavedSession:
         comparison,
         picked=link.picked,
         plotted_pair=link.plotted,
+        selected=link.sensor,
+        pinned=link.zone and Zone(*link.zone),
+        up=up,
     )
 
 
@@ -112,6 +131,7 @@ _Metres = Annotated[float, Field(gt=-_FARTHEST, lt=_FARTHEST)]
 _Radians = Annotated[float, Field(gt=0.01, lt=3.0)]
 
 
+_Index = Annotated[int, Field(ge=0, lt=_CLUSTERS)]
 _Quantity = Annotated[str, one_of(QUANTITIES)]
 
 
@@ -138,6 +158,9 @@ class _Link(_Content):
     view: LinkedView = LinkedView()
     picked: Annotated[int, Field(ge=0, lt=_CLUSTERS)] | None = None
     plotted: tuple[_Quantity, _Quantity] | None = None
+    sensor: _Index | None = None
+    zone: tuple[Side, _Index, _Index, _Index] | None = None
+    up: tuple[_Metres, _Metres, _Metres] | None = None
 
 
 def _differences(parameters: Parameters) -> dict[str, Any]:
@@ -160,3 +183,10 @@ def _camera(numbers: tuple[float, float, float, float, float, float, float]) -> 
     if math.dist((x, y, z), (a, b, c)) <= 1e-4:
         raise ValueError(numbers)
     return Camera((x, y, z), (a, b, c), fov)
+
+
+def _direction(up: Vector) -> Vector:
+    """The direction; ValueError if it is none."""
+    if math.hypot(*up) <= 1e-4:
+        raise ValueError(up)
+    return up

@@ -2,20 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
+from app.analysis.catalogue import without_path
 from app.analysis.library import Entry, Library, Opened
-from app.errors import InputError, UserError
-
-
-class OpeningError(InputError):
-    """Recordings that could not be opened.
-
-    Attributes:
-        title: says in short which.
-    """
-
-    def __init__(self, title: str, sentence: str) -> None:
-        super().__init__(sentence)
-        self.title = title
+from app.errors import UserError
+from app.session.outbox import OpeningFailed
 
 
 class OpenRequests:
@@ -29,7 +19,7 @@ class OpenRequests:
     def __init__(self, library: Library, entries: Sequence[Entry]) -> None:
         self._library = library
         self._requested: list[str] = []
-        self._failures: dict[str, str] = {}
+        self._failures: list[tuple[Entry, str]] = []
         self.allow(entries)
 
     @property
@@ -47,12 +37,12 @@ class OpenRequests:
         self._requested = [label for label in labels if label in self._entries]
 
     def try_next(self) -> Opened | None:
-        """Open the next one, or return None and keep the error for `raise_failure`."""
-        label = self._requested.pop(0)
+        """Open the next one, or return None and keep the error for `take_failure`."""
+        entry = self._entries[self._requested.pop(0)]
         try:
-            opened = self._library.open(self._entries[label])
+            opened = self._library.open(entry)
         except UserError as error:
-            self._failures[label] = str(error)
+            self._failures.append((entry, without_path(str(error), entry)))
             return None
         except Exception:
             self._requested.clear()
@@ -60,11 +50,11 @@ class OpenRequests:
         self._requested.clear()
         return opened
 
-    def raise_failure(self) -> None:
-        """Raise OpeningError on those that could not be opened, once none is left to try."""
+    def take_failure(self) -> OpeningFailed | None:
+        """What could not be opened, once none is left to try, None where all could."""
         if self._requested or not self._failures:
-            return
-        (label, first), *others = self._failures.items()
+            return None
+        (entry, first), *others = self._failures
         self._failures.clear()
         more = f" {len(others)} more could not be opened." if others else ""
-        raise OpeningError(f"{label} cannot be opened", first + more)
+        return OpeningFailed(entry.label, first + more, entry.path)

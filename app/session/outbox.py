@@ -1,6 +1,7 @@
 """Messages that a session sends to the browser exactly once."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
 Colour = Literal["red", "yellow", "green"]
@@ -23,6 +24,27 @@ class Notice:
     colour: Colour | None = None
     seconds: float = 6.0
     replaces: bool = False
+
+
+@dataclass(frozen=True)
+class OpeningFailed:
+    """A recording that could not be opened.
+
+    Attributes:
+        label: of the recording.
+        reason: in sentences.
+        path: of its file.
+        kept: label of the recording that stays open, None without one.
+    """
+
+    label: str
+    reason: str
+    path: Path
+    kept: str | None = None
+
+    def notice(self) -> Notice:
+        """What is said where another recording was opened instead."""
+        return Notice(f"{self.label} cannot be opened", self.reason, "red", seconds=15.0)
 
 
 @dataclass(frozen=True)
@@ -50,4 +72,4 @@ class EnlargePlots:
     """The plots are laid over the window, or put back."""
 
 
-Message = Notice | Download | LinkToCopy | EnlargePlots
+Message = Notice | OpeningFailed | Download | LinkToCopy | EnlargePlots

@@ -32,7 +32,8 @@ class Status:
         parameters: of the estimate.
         parameters_revision: incremented when parameters change other than by their controls, which
             must then be updated.
-        corrections: {parameter: what became of its entry, a sentence}, the latest last.
+        corrections: {parameter: what became of its entry, a sentence} of the last entries.
+        corrected: number of corrections so far.
         preset_use: the last use of a preset, None before the first.
         tasks: running in the background.
         outbox: messages to send to the browser, exactly once.
@@ -44,6 +45,7 @@ class Status:
     parameters: Parameters
     parameters_revision: int
     corrections: Mapping[str, str]
+    corrected: int
     preset_use: PresetUse | None
     tasks: tuple[TaskState, ...]
     outbox: tuple[Message, ...]
@@ -75,6 +77,7 @@ class Snapshot(Status):
         other_survey: with the other parameters, None without any or before its first update.
         other_survey_revision: number of its updates.
         inspected: zones and sensor that a person looks at.
+        out_of_picture: whether nearly all that moves, or else all points, are.
     """
 
     opened: Opened
@@ -98,3 +101,4 @@ class Snapshot(Status):
     other_survey: Survey | None
     other_survey_revision: int
     inspected: Inspected
+    out_of_picture: bool = False

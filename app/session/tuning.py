@@ -28,7 +28,8 @@ class Tuning:
     Attributes:
         parameters: the edited ones.
         comparison: with a second set of parameters, None without one.
-        corrections: {parameter: what became of its entry, a sentence}, the latest last.
+        corrections: {parameter: what became of its entry, a sentence} of the last entries.
+        corrected: number of corrections so far.
         revision: incremented when parameters change other than by their controls.
     """
 
@@ -36,9 +37,16 @@ class Tuning:
         self.parameters = parameters
         self.comparison: Comparison | None = None
         self.corrections: dict[str, str] = {}
+        self.corrected = 0
         self.revision = 0
+        self._held = False
         self._defaults = defaults
         self._histories = ParameterHistories()
+
+    def hold(self, held: bool) -> None:
+        """A slider is pressed or released: what is entered in between is undone as one."""
+        self._held = held
+        self._histories.of(self.comparison).separate()
 
     def enter(self, values: Mapping[str, Any], ranges: Mapping[str, Ends], now: float) -> None:
         """Apply values of controls, {parameter: value}; a number beyond its range becomes an end.
@@ -63,11 +71,10 @@ class Tuning:
             said, after = dict.fromkeys(values, str(error)), self.parameters
         if after == self.parameters and not said:
             return
-        for name in values:
-            self.corrections.pop(name, None)
-        self.corrections.update(said)
+        self.corrections = said
+        self.corrected += len(said)
         if after != self.parameters:
-            self._histories.of(self.comparison).note(self.parameters, after, now)
+            self._histories.of(self.comparison).note(self.parameters, after, now, held=self._held)
             self.parameters = after
 
     def set(self, parameters: Parameters) -> None:

@@ -106,15 +106,13 @@ class Workbench:
         return self._drawing.pair
 
     def open_next(self) -> None:
-        """Open the next requested recording in place of the open one.
-
-        Raises:
-            OpeningError: requested recordings could not be opened, and none is left to try.
-        """
+        """Open the next requested recording in place of the open one, and tell of failures."""
         opened = self.open_requests.try_next()
         if opened is not None:
             self._begin(opened)
-        self.open_requests.raise_failure()
+        if failed := self.open_requests.take_failure():
+            kept = self.opened and self.opened.entry.label
+            self.outbox.append(failed.notice() if opened else replace(failed, kept=kept))
 
     def draw(self) -> None:
         """Draw the frame that is due, if anything has changed."""
@@ -190,6 +188,9 @@ class Workbench:
             playing=self.clock.playing,
             picked=self._drawing.picked,
             plotted_pair=self.plotted_pair,
+            selected=self.inspection.inspected.selected,
+            pinned=self.inspection.pinned,
+            up=self.framing.up,
         )
 
     def restore(self, saved: SavedSession) -> None:
@@ -201,8 +202,9 @@ class Workbench:
         self.tuning.comparison = saved.comparison
         self.plotted_pair = saved.plotted_pair
         self._drawing.await_cluster(saved.picked)
+        self.inspection.start_from(saved.selected, saved.pinned)
         if saved.camera:
-            self.framing.start_from(saved.camera)
+            self.framing.start_from(saved.camera, saved.up)
         if saved.playback:
             self.clock.change(asdict(saved.playback), self.frame, time.monotonic())
         if saved.playing:
@@ -245,6 +247,7 @@ class Workbench:
             other_survey=self.surveys.other.survey,
             other_survey_revision=self.surveys.other.revision,
             inspected=self.inspection.inspected,
+            out_of_picture=self.pair is not None and self.framing.misses(self.pair),
             **self._status(),
         )
 
@@ -287,6 +290,7 @@ class Workbench:
             "parameters": self.tuning.parameters,
             "parameters_revision": self.tuning.revision,
             "corrections": dict(self.tuning.corrections),
+            "corrected": self.tuning.corrected,
             "preset_use": self.preset_use,
             "tasks": self.tasks.states,
             "outbox": outbox,

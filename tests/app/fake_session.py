@@ -31,6 +31,7 @@ def status(**changes: Any) -> Status:
         "parameters": Parameters(),
         "parameters_revision": 0,
         "corrections": {},
+        "corrected": 0,
         "preset_use": None,
         "tasks": (),
         "outbox": (),

@@ -88,7 +88,7 @@ class Tab:
     def node(self, below: str, name: str) -> str:
         """The node of a robot's link, or of a sensor, below a node of the fixed frame."""
         root = f"{FIXED}/{below}/"
-        found = self.page.evaluate("() => Object.keys(window.__viserSceneTree.getState())")
+        found = self.page.evaluate(_NAMES)
         [node] = [n for n in found if n.startswith(root) and n.endswith(f"_{name}")]
         return node.removeprefix(f"{FIXED}/")
 

@@ -72,11 +72,25 @@ def test_an_offline_page_opens_from_disk_without_network_and_plays(
         "() => Object.keys(window.__viserSceneTree.getState()).some(n => n.includes('panda_link7'))"
     )
     assert page.title() == f"{sample.stem} (simulated)"
-    page.get_by_text(f"{sample.stem} (simulated)").click()
+    page.locator("#about summary").click()
     assert page.get_by_text("delta: 0.04").is_visible()
+
+    # It stands still at a frame at which something moves, and says which.
+    at, corner = page.locator("#tofscope-now"), page.locator("#tofscope-corner")
+    assert at.inner_text() == "frame 22 of 36 · 1.47 s"
+    assert "frame 22 of 36 · 1.47 s · Δt 0.533 s" in corner.inner_text()
+    assert page.locator("#tofscope-ticks span").all_inner_texts()[:2] == ["0 s", "0.5 s"]
+    until(page, lambda: nodes(page)["/fixed/flow"] > 60)
+    ground = "document.querySelector('canvas[data-engine]')"
+    assert page.evaluate(f"getComputedStyle({ground}).backgroundColor") == "rgb(246, 247, 250)"
+    for key, frame in (("ArrowRight", 23), ("ArrowLeft", 22), ("End", 36), ("Home", 0)):
+        page.keyboard.press(key)
+        until(page, lambda frame=frame: at.inner_text().startswith(f"frame {frame} "))
+    assert "frame 0 of 36" in corner.inner_text()
 
     clock = page.locator("input").first
     shown = {clock.input_value()}
+    page.keyboard.press("Space")
 
     def plays() -> bool:
         shown.add(clock.input_value())

@@ -52,7 +52,14 @@ def test_a_preset_survives_a_reload_and_a_file_goes_out_and_in(tab: Tab, tmp_pat
 
 
 def test_a_number_beyond_its_range_becomes_the_nearest_in_it_and_the_page_says_so(tab: Tab):
-    number, said = field(tab, "n"), tab.page.get_by_text("became")
+    number, said = field(tab, "n"), tab.page.locator("#tofscope-rule", has_text="became")
+    rule = tab.page.locator("#tofscope-rule")
+    number.click()
+    tab.until(lambda: rule.inner_text().startswith("Whole numbers from 1 to 20 frames;"))
+    tab.page.keyboard.press("Control+a")
+    tab.page.keyboard.type("1.5")
+    assert number.input_value() == "1"  # and not 15
+    assert rule.inner_text().startswith("What follows the point is left out.")
     number.fill("5000")
     tab.until(said.is_visible)
     assert said.inner_text() == "n goes from 1 to 20 frames: 5000 became 20."
@@ -78,7 +85,8 @@ def test_a_number_beyond_its_range_becomes_the_nearest_in_it_and_the_page_says_s
 
 def test_a_number_elsewhere_is_corrected_also_after_it_is_left(tab: Tab):
     tab.show("More")
-    number, said = field(tab, "min cluster size"), tab.page.get_by_text("became")
+    said = tab.page.locator("#tofscope-rule", has_text="became")
+    number = field(tab, "min cluster size")
     number.fill("1")
     tab.until(said.is_visible)
     number.blur()

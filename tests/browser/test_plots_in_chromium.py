@@ -66,6 +66,16 @@ class Plots:
         self.page.mouse.move(x, y, steps=4)
         self.page.mouse.up()
 
+    def distance_of_values(self, name: str, share: float) -> float:
+        """Pixels between the cursor in an enlarged plot and the values beside it."""
+        self.hover(name, share)
+        self.tab.until(lambda: self.state("hovered") is not None)
+        self.page.wait_for_timeout(100)
+        said = self.page.locator(f"[data-plot={name}] .plot-values").bounding_box()
+        cursor, _ = self.place(name, share)
+        assert said is not None
+        return min(abs(said["x"] - cursor), abs(said["x"] + said["width"] - cursor))
+
     def canvas(self, name: str) -> bytes:
         return self.page.locator(f"[data-plot={name}] canvas").screenshot()
 
@@ -174,12 +184,14 @@ def test_plots_as_large_as_the_window_or_the_panel_and_two_quantities(tab: Tab):
     wide = page.locator("[data-plot=speed]").bounding_box()
     assert wide is not None
     assert wide["width"] > 1000
-    assert page.evaluate("tofscope.plots.state.plots.every(plot => plot.labelled)")
+    labelled = page.evaluate("tofscope.plots.state.plots.map(plot => plot.labelled)")
+    assert labelled == [False] * (len(PLOTS) - 1) + [True]  # one time axis, below all
+    assert HOLLOW in page.inner_text(".plots-about")
     lowest = page.locator(f"[data-plot={PLOTS[-1]}]").bounding_box()
     assert lowest is not None
     assert 600 < lowest["y"] + lowest["height"] <= 720
-    plots.hover("moving", 0.5)
-    tab.until(lambda: plots.state("hovered") is not None)
+    for share in (0.3, 0.7):
+        assert plots.distance_of_values("moving", share) < 60
     page.keyboard.press("Escape")
     tab.until(lambda: not plots.state("enlarged"))
     page.mouse.move(640, 300)
@@ -201,10 +213,9 @@ def test_plots_as_large_as_the_window_or_the_panel_and_two_quantities(tab: Tab):
 
     tab.until(grown)
 
-    tab.row("Plot").locator("input").first.click()
-    page.locator("[role=option]:visible", has_text="Angle deviation [°]").click()
-    tab.row("against").locator("input").first.click()
-    page.locator("[role=option]:visible", has_text="Moving points").click()
+    for row, quantity in (("Plot", "Angle deviation [°]"), ("against", "Moving points")):
+        tab.row(row).locator("input").first.click()
+        page.locator("[role=option]:visible", has_text=quantity).click()
     tab.until(lambda: tab.has_text("Angle deviation [°] against Moving points"))
     page.locator("[data-plot=pair]").scroll_into_view_if_needed()
     tab.until(page.locator("[data-plot=pair] .plot-ring").first.is_visible)
@@ -212,6 +223,19 @@ def test_plots_as_large_as_the_window_or_the_panel_and_two_quantities(tab: Tab):
     assert ring is not None
     page.mouse.move(ring["x"] + 5, ring["y"] + 5)
     tab.until(lambda: plots.state("hovered") == frame)
+    both = f"({plots.values('moving')[frame]:.0f}, {plots.values('angle_deg')[frame]:.2f})"
+    tab.until(lambda: page.inner_text(".plots-across .plot-values") == both)
+
+    page.get_by_role("button", name="Enlarge").click()
+    tab.until(lambda: plots.state("enlarged"))
+    page.wait_for_timeout(200)
+    assert 600 < _height(tab, "pair") < 720  # beside the others, as high as all of them
+
+
+def _height(tab: Tab, name: str) -> float:
+    box = tab.page.locator(f"[data-plot={name}]").bounding_box()
+    assert box is not None
+    return box["height"]
 
 
 def test_the_plots_arrive_as_files(tab: Tab):

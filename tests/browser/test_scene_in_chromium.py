@@ -74,12 +74,25 @@ def test_colours_and_dark(tab: Tab):
 
 def test_the_legend_lies_in_the_lower_left_corner(tab: Tab):
     legend = tab.page.locator("[data-legend]")
-    assert "Source: stationary" in legend.inner_text()
+    assert legend.inner_text().split()[:4] == ["Source", "moving", "stationary", "unassigned"]
     box, scene = legend.bounding_box(), tab.page.locator("canvas[data-engine]").bounding_box()
     assert box is not None
     assert scene is not None
     assert 0 < box["x"] - scene["x"] < 30
     assert 0 < scene["y"] + scene["height"] - box["y"] - box["height"] < 100  # above the line
+
+
+def test_why_nothing_moves_is_said_above_the_legend_with_a_way_to_motion(tab: Tab):
+    note = tab.page.locator("#tofscope-note")
+    assert note.is_hidden()
+    tab.page.keyboard.press("Home")
+    tab.until(lambda: "No pair" in note.inner_text())
+    above, legend = note.bounding_box(), tab.page.locator("[data-legend]").bounding_box()
+    assert above is not None
+    assert legend is not None
+    assert above["y"] + above["height"] <= legend["y"]
+    note.get_by_role("button", name="To the next motion").click()
+    tab.until(lambda: "No pair" not in note.inner_text() or note.is_hidden())
 
 
 def test_the_two_views_of_papers_are_one_file_that_says_what_it_shows(tab: Tab):

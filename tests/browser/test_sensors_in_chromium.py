@@ -94,7 +94,7 @@ def void(tab: Tab) -> tuple[float, float]:
 
 def test_the_page_says_which_sensors_see_what_moves_and_selects_one_by_its_name(sensors: Tab):
     said = sensors.page.locator(".tofscope-sensors-moving")
-    assert said.inner_text().startswith("Something moves before base/2 (")
+    assert said.inner_text().startswith("Something moves in front of base/2 (")
     assert "moves" in (image(sensors, "base/2").get_attribute("class") or "")
     assert image(sensors, "base/5").get_attribute("data-count") == ""
     said.locator("button").first.click()

@@ -152,7 +152,7 @@ def test_a_mark_with_a_note_is_a_file_beside_the_recording_and_survives_a_reload
         frame = tab.drawn_frame()
         tab.page.keyboard.press("k")
         note = tab.page.get_by_label("Note", exact=True)
-        note.press_sequentially("jumps <l> km")  # letters that are keys of playback, too
+        tab.page.keyboard.type("jumps <l> km")  # at once, letters that are keys of playback, too
         note.press("Enter")
         tab.until(lambda: '"jumps <l> km"' in kept())
         assert tab.is_at(frame)

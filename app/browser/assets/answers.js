@@ -1,19 +1,13 @@
 // What is known of the point or zone under the pointer, beside it; and of the pinned one, in a card.
 window.tofscope ??= {};
 if (!window.tofscope.answers) {
-  const tofscope = window.tofscope;
-  const element = (tag, name, parent, text = "") => {
-    const made = document.createElement(tag);
-    made.className = name;
-    made.textContent = text;
-    parent.append(made);
-    return made;
-  };
+  const {tofscope} = window, {element} = tofscope;
 
   const tip = element("div", "tofscope-answer tofscope-tip", document.body);
   const card = element("div", "tofscope-answer tofscope-pinned", document.body);
   tip.hidden = card.hidden = true;
-  let clickedRight = false;  // the half of the scene that was clicked on last
+  // The half of the scene that was clicked on last, also after a reload.
+  let clickedRight = sessionStorage.getItem("tofscope-clicked") === "right";
   let pointer = null;  // where it is while something may answer there, else null
 
   const fill = (box, {title, rows}) => {
@@ -73,6 +67,7 @@ if (!window.tofscope.answers) {
     if (event.target !== window.__viserMutable?.canvas) return;
     const {left, width} = event.target.getBoundingClientRect();
     clickedRight = event.clientX > left + width / 2;
+    sessionStorage.setItem("tofscope-clicked", clickedRight ? "right" : "left");
   });
   document.documentElement.addEventListener("pointerleave", event => look(event, null));
 

@@ -1,12 +1,7 @@
 // Line and scale bar in the lower left corner of the scene.
 window.tofscope ??= {};
 {
-  const add = (parent, tag, name) => {
-    const element = document.createElement(tag);
-    element.className = name;
-    parent.append(element);
-    return element;
-  };
+  const {tofscope} = window, {element} = tofscope;
 
   const page = document.documentElement.style;
   const corner = document.getElementById("tofscope-corner") ?? document.createElement("div");
@@ -14,10 +9,10 @@ window.tofscope ??= {};
   corner.hidden = true;  // until there is something to say
   corner.replaceChildren();
   document.body.append(corner);
-  const scale = add(corner, "div", "scale");
-  const bar = add(scale, "i", "bar");
-  const length = add(scale, "span", "length");
-  const line = add(corner, "div", "line");
+  const scale = element("div", "scale", corner);
+  const bar = element("i", "bar", scale);
+  const length = element("span", "length", scale);
+  const line = element("div", "line", corner);
 
   // The legend stands above, however many lines there are.
   const lift = () => page.setProperty("--corner-height", `${corner.offsetHeight}px`);
@@ -32,8 +27,10 @@ window.tofscope ??= {};
       corner.hidden = parts.length === 0;
       line.replaceChildren();
       parts.forEach((part, index) => {
-        if (index > 0) line.append(" · ");
-        add(line, "span", "part").textContent = part;
+        if (index > 0) line.append(" ");
+        const whole = element("span", "part", line);
+        if (index > 0) element("span", "dot", whole, "·");
+        whole.append(index > 0 ? ` ${part}` : part);
       });
       scale.hidden = text === "";
       length.textContent = text;

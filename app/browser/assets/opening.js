@@ -30,7 +30,10 @@ window.tofscope ??= {};
   say("Opening …");
 
   window.tofscope.opening = {
-    show: name => say(`Opening ${name} …`),
+    show: name => {
+      window.tofscope.failure?.close();
+      say(`Opening ${name} …`);
+    },
     // There is something to see: the page as a whole, and no card.
     end: () => {
       root.classList.remove("tofscope-starting");

@@ -5,7 +5,7 @@ window.tofscope ??= {};
   let times = new Float64Array([0]), sides = {};
 
   const side = name => sides[name] ??= {values: {}, counts: null, stale: false};
-  const decoded = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
+  const decoded = text => window.tofscope.bytes(text).buffer;
 
   // Index of the first frame that is not before `time`.
   const indexOf = time => {

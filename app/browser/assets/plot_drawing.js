@@ -1,9 +1,11 @@
-// Drawing of one plot on a canvas: axes at round numbers, and filled or hollow points.
+// Drawing of one plot on a canvas: axes at round numbers, and filled or hollow points, joined by
+// thin lines from frame to frame.
 window.tofscope ??= {};
 {
-  const FONT = "10px sans-serif";
   const LEFT = 44, RIGHT = 8, TOP = 4;  // pixels beside the area of the points
-  const MANY = 4000;  // points from which on they are small squares, which are faster to draw
+  const MANY = 4000;  // points from which on they are drawn as a raster of cells
+  const CELL = 2;  // pixels of a cell
+  const FILLED = 1, HOLLOW = 2;
 
   // The least number of some steps times a power of ten that is not below `value`.
   const roundUp = (value, steps = [1, 2, 5, 10]) => {
@@ -29,12 +31,12 @@ window.tofscope ??= {};
     left: LEFT,
     top: TOP,
     width: Math.max(width - LEFT - RIGHT, 1),
-    height: Math.max(height - TOP - (labelled ? 28 : 4), 1),
+    height: Math.max(height - TOP - (labelled ? 32 : 4), 1),
   });
 
-  const drawAxes = (context, area, x, y, {labelled, text}) => {
+  const drawAxes = (context, area, x, y, {labelled, text, large}) => {
     const {left, top, width, height} = area;
-    context.font = FONT;
+    context.font = `${large ? 12 : 10}px sans-serif`;
     context.strokeStyle = context.fillStyle = text;
     const line = (x0, y0, x1, y1, alpha) => {
       context.globalAlpha = alpha;
@@ -45,14 +47,14 @@ window.tofscope ??= {};
     };
     context.textAlign = "right";
     context.textBaseline = "middle";
-    for (const {value, text: said} of ticks(y, height, 24)) {
+    for (const {value, text: said} of ticks(y, height, Math.max(24, height / 10))) {
       const at = top + height * (y.high - value) / (y.high - y.low);
       line(left, at, left + width, at, value === 0 ? 0.35 : 0.1);
       context.globalAlpha = 0.8;
       context.fillText(said, left - 5, Math.min(Math.max(at, 5), top + height - 1));
     }
     context.textBaseline = "top";
-    for (const {value, text: said} of ticks(x, width, 56)) {
+    for (const {value, text: said} of ticks(x, width, Math.max(56, width / 16))) {
       const at = left + width * (value - x.low) / (x.high - x.low);
       line(at, top, at, top + height, 0.1);
       context.globalAlpha = 0.8;
@@ -61,43 +63,91 @@ window.tofscope ??= {};
     }
     if (!labelled) return;
     context.textAlign = "right";
-    context.fillText(x.title, left + width, top + height + 15);
+    context.fillText(x.title, left + width, top + height + 17);
   };
 
-  // Draws series of points {x, y, counts, colour, size}; hollow where `counts` is 0.
+  // Draws series of points {x, y, counts, colour, size}; hollow where `counts` is 0. Those with
+  // `joined` have a thin line from each frame to the next.
   const drawPoints = (context, area, x, y, series, from, to) => {
-    const {left, top, width, height} = area;
-    const many = to - from > MANY;
-    // Of several points in one cell one is drawn, which looks the same.
-    const cell = many ? 3 : 2;
-    const columns = Math.ceil(width / cell) + 1, rows = Math.ceil(height / cell) + 1;
-    const seen = new Uint8Array(columns * rows);
-    for (const {x: xs, y: ys, counts, colour, size, alpha} of series) {
-      for (const hollow of [true, false]) {
-        seen.fill(0);
-        context.beginPath();
-        for (let k = from; k < to; k++) {
-          if (hollow !== (counts !== null && counts[k] === 0)) continue;
-          const right = width * (xs[k] - x.low) / (x.high - x.low);
-          const down = height * (y.high - ys[k]) / (y.high - y.low);
-          if (!(right >= 0 && right <= width && down >= 0 && down <= height)) continue;
-          const place = Math.floor(right / cell) * rows + Math.floor(down / cell);
-          if (seen[place]) continue;
-          seen[place] = 1;
-          if (many) {
-            context.rect(left + right - size / 2, top + down - size / 2, size, size);
-            continue;
-          }
-          context.moveTo(left + right + size, top + down);
-          context.arc(left + right, top + down, size, 0, 2 * Math.PI);
-        }
-        context.globalAlpha = alpha;
-        context.fillStyle = context.strokeStyle = colour;
-        context.lineWidth = 1;
-        if (hollow) context.stroke(); else context.fill();
+    for (const one of series) {
+      const place = placing(area, x, y, one);
+      context.fillStyle = context.strokeStyle = one.colour;
+      context.lineWidth = 1;
+      if (to - from > MANY) {
+        drawCells(context, area, place, one, from, to);
+        continue;
       }
+      if (one.joined) drawLine(context, place, one, from, to);
+      drawDots(context, place, one, from, to);
     }
     context.globalAlpha = 1;
+  };
+
+  // Where a frame's point is, in pixels of the canvas, and whether the area holds it.
+  const placing = ({left, top, width, height}, x, y, {x: xs, y: ys}) => {
+    const across = width / (x.high - x.low), up = height / (y.high - y.low);
+    return {
+      right: frame => left + across * (xs[frame] - x.low),
+      down: frame => top + up * (y.high - ys[frame]),
+      // False for NaN, too.
+      holds: (right, down) =>
+        right >= left && right <= left + width && down >= top && down <= top + height,
+    };
+  };
+
+  const drawDots = (context, place, {counts, size, alpha}, from, to) => {
+    const filled = new Path2D(), hollow = new Path2D();
+    for (let k = from; k < to; k++) {
+      const right = place.right(k), down = place.down(k);
+      if (!place.holds(right, down)) continue;
+      const path = counts !== null && counts[k] === 0 ? hollow : filled;
+      path.moveTo(right + size, down);
+      path.arc(right, down, size, 0, 2 * Math.PI);
+    }
+    context.globalAlpha = alpha;
+    context.fill(filled);
+    context.stroke(hollow);
+  };
+
+  const drawLine = (context, place, {alpha}, from, to) => {
+    const path = new Path2D();
+    let before = false;
+    for (let k = from; k < to; k++) {
+      const right = place.right(k), down = place.down(k), known = place.holds(right, down);
+      if (known && before) path.lineTo(right, down);
+      else if (known) path.moveTo(right, down);
+      before = known;
+    }
+    context.globalAlpha = 0.3 * alpha;
+    context.stroke(path);
+  };
+
+  // Dense points: cells that hold a filled point, and, pale, those that hold hollow ones alone.
+  const drawCells = (context, area, place, {counts, alpha}, from, to) => {
+    const columns = Math.ceil(area.width / CELL) + 1, rows = Math.ceil(area.height / CELL) + 1;
+    const cells = new Uint8Array(columns * rows);
+    for (let k = from; k < to; k++) {
+      const right = place.right(k), down = place.down(k);
+      if (!place.holds(right, down)) continue;
+      const cell = Math.floor((right - area.left) / CELL) * rows
+        + Math.floor((down - area.top) / CELL);
+      if (cells[cell] !== FILLED) cells[cell] = counts !== null && counts[k] === 0 ? HOLLOW : FILLED;
+    }
+    for (const [state, share] of [[HOLLOW, 0.35], [FILLED, 1]]) {
+      context.globalAlpha = alpha * share;
+      context.beginPath();
+      for (let column = 0; column < columns; column++) {
+        for (let row = 0; row < rows; row++) {
+          const start = row;
+          while (row < rows && cells[column * rows + row] === state) row++;
+          if (row > start) {
+            const [right, down] = [area.left + column * CELL, area.top + start * CELL];
+            context.rect(right, down, CELL, (row - start) * CELL);
+          }
+        }
+      }
+      context.fill();
+    }
   };
 
   // A canvas fitted to its element, cleared, with its size in CSS pixels.

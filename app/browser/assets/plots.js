@@ -2,24 +2,17 @@
 // that seek. The numbers live here, so that none of it asks the server.
 window.tofscope ??= {};
 {
-  const {tofscope} = window, data = tofscope.plotData;
+  const {tofscope} = window, {element: made, plotData: data} = tofscope;
   const {roundUp, areaOf, drawAxes, drawPoints, fitted} = tofscope.plotDrawing;
-  const DRAG = 4;  // pixels from which on a press is a drag
-  const TWICE = 250;  // milliseconds within which a second click may make a double click
   const ENDS = [1, 1.5, 2, 3, 4, 5, 6, 8, 10];  // of vertical axes, times a power of ten
-  const HEIGHT = 58, LABELS = 24, SQUARE = 210;  // pixels of plots in the panel
+  const HEIGHT = 58, LABELS = 28, PAIR = 230;  // pixels of plots in the panel
+  const LARGER = 1.5;  // points of enlarged plots
   tofscope.plots?.remove();  // those of a session before
-
-  const made = (tag, name, parent) => {
-    const element = document.createElement(tag);
-    element.className = name;
-    parent?.append(element);
-    return element;
-  };
 
   const root = made("div", "tofscope-plots");
   const bar = made("div", "plots-bar", root);
   const where = made("span", "plots-where", bar);
+  const about = made("span", "plots-about", bar);
   const enlarging = made("button", "plots-enlarge", bar);
   const body = made("div", "plots-body", root);
   const list = made("div", "plots-list", body);
@@ -39,13 +32,14 @@ window.tofscope ??= {};
       y: data.values(name, of),
       counts: data.counts(of),
       colour: state.colours[of],
-      size: index ? 1.6 : reference ? 2.6 : 2.2,
+      size: (index ? 1.6 : reference ? 2.6 : 2.2) * (state.enlarged ? LARGER : 1),
       alpha: data.alpha(of),
+      joined: true,
     }));
     const [first] = state.shown;
     if (reference) found.push({
       label: "true", x: data.times, y: data.values(reference, first), counts: null,
-      colour: state.colours.truth, size: 1.4, alpha: data.alpha(first),
+      colour: state.colours.truth, size: 1.4, alpha: data.alpha(first), joined: true,
     });
     return found;
   };
@@ -68,82 +62,68 @@ window.tofscope ??= {};
 
   const newPlot = (quantity, parent) => {
     const heading = made("div", "plot-heading", parent);
-    const title = made("span", "plot-title", heading);
-    const note = made("div", "plot-note", parent);
+    const title = made("span", "plot-title", heading, quantity.title);
+    const values = made("span", "plot-values", heading);
+    const note = made("span", "plot-note", heading);
     const area = made("div", "plot-area", parent);
     const plot = {
-      quantity, heading, note, area, canvas: made("canvas", "", area),
+      quantity, heading, values, note, area, within: areaOf(1, 1, false), canvas: made("canvas", "", area),
       line: made("div", "plot-line", area), hover: made("div", "plot-line hovered", area),
       span: made("div", "plot-span", area), cells: [],
     };
-    title.textContent = quantity.title;
-    if (quantity.unit) made("span", "plot-unit", title).textContent = ` [${quantity.unit}]`;
+    if (quantity.unit) made("span", "plot-unit", title, ` [${quantity.unit}]`);
     area.dataset.plot = quantity.name;
-    listenToDrags(plot);
+    listenToPointer(plot);
     return plot;
   };
 
-  const within = plot => areaOf(plot.area.clientWidth, plot.area.clientHeight, plot.labelled);
-
   const timeAt = (plot, event) => {
-    const {left, width} = within(plot), [low, high] = view();
+    const {left, width} = plot.within, [low, high] = view();
     const share = (event.clientX - plot.area.getBoundingClientRect().left - left) / width;
     return low + (high - low) * Math.min(Math.max(share, 0), 1);
   };
 
-  let seeking = 0;
-  const listenToDrags = plot => {
-    let start = null, dragged = false;
-    on(plot.area, "pointerdown", event => {
-      if (event.button !== 0) return;
-      start = event.clientX;
-      dragged = false;
-      plot.from = timeAt(plot, event);
-      plot.area.setPointerCapture(event.pointerId);
-    });
-    on(plot.area, "pointermove", event => {
-      const time = timeAt(plot, event);
-      if (start !== null && Math.abs(event.clientX - start) > DRAG) dragged = true;
-      state.span = start !== null && dragged ? [plot.from, time].sort((a, b) => a - b) : null;
-      hover(data.nearest(time));
-    });
-    on(plot.area, "pointerup", event => {
-      if (start === null) return;
-      start = null;
-      if (!dragged) {
-        const frame = data.nearest(timeAt(plot, event));
-        clearTimeout(seeking);
-        // A click may be the first of a double click, where that has a meaning.
-        if (state.view && event.pointerType === "mouse")
-          seeking = setTimeout(() => seek(frame), TWICE);
-        else seek(frame);
-      } else if (state.span && data.indexOf(state.span[1]) > data.indexOf(state.span[0])) {
-        zoom(state.span);
-      }
-      state.span = null;
+  const listenToPointer = plot => tofscope.plotPointer.listen(plot.area, {
+    on,
+    timeAt: event => timeAt(plot, event),
+    zoomed: () => state.view !== null,
+    hover: time => hover(time === null ? null : data.nearest(time)),
+    seek: time => seek(data.nearest(time)),
+    select: span => {
+      state.span = span;
       mark();
-    });
-    on(plot.area, "pointercancel", () => { start = state.span = null; mark(); });
-    on(plot.area, "pointerleave", () => { if (start === null) hover(null); });
-    on(plot.area, "dblclick", () => { clearTimeout(seeking); zoom(null); });
-  };
-
-  const zoom = span => {
-    state.view = span;
-    draw();
-    mark();
-  };
+    },
+    zoom: span => {
+      if (span && data.indexOf(span[1]) <= data.indexOf(span[0])) return;  // shows no frame
+      state.view = span;
+      draw();
+    },
+  });
 
   const hover = frame => {
     state.hovered = frame;
     mark();
   };
 
+  // Once before the next picture, however often it is asked for until then.
+  const once = act => {
+    let waiting = false;
+    return () => {
+      if (waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        act();
+      });
+    };
+  };
+
   // Lines, selection and values: all that follows the pointer or the frame, without drawing anew.
-  const mark = () => {
+  // Nothing is measured here, since each change of a style would have the page laid out anew.
+  const markNow = () => {
     const frame = state.hovered ?? state.frame, [low, high] = view();
     for (const plot of state.plots) {
-      const {left, top, width, height} = within(plot);
+      const {left, top, width, height} = plot.within;
       const place = time => left + width * (time - low) / (high - low);
       const show = (element, from, to) => {
         const [a, b] = [place(Math.max(from, low)), place(Math.min(to, high))];
@@ -157,19 +137,28 @@ window.tofscope ??= {};
       else show(plot.hover, there, there);
       if (state.span) show(plot.span, ...state.span); else plot.span.style.display = "none";
       say(plot, frame);
+      if (state.enlarged) sayBeside(plot, place(data.times[frame]), left + width);
     }
     const zoomed = state.view ? ` · ${low.toFixed(2)} to ${high.toFixed(2)} s` : "";
     where.textContent = `Frame ${frame} · ${data.times[frame].toFixed(3)} s${zoomed}`;
     where.title = state.view
       ? "A double click shows the whole recording." : "Drag to zoom, click to go there.";
-    tofscope.plotPair.mark(state);
+    tofscope.plotPair.mark(state, frame);
+  };
+  const mark = once(markNow);
+
+  // The values of an enlarged plot stand beside the cursor, on the side that has more room.
+  const sayBeside = ({values}, at, end) => {
+    const before = at > end / 2;
+    values.style.left = before ? "" : `${at + 8}px`;
+    values.style.right = before ? `calc(100% - ${at - 8}px)` : "";
   };
 
   const say = (plot, frame) => {
     const series = seriesOf(plot.quantity);
     while (plot.cells.length > series.length) plot.cells.pop().forEach(cell => cell.remove());
     while (plot.cells.length < series.length)
-      plot.cells.push(["plot-dot", "", "plot-value"].map(n => made("span", n, plot.heading)));
+      plot.cells.push(["plot-dot", "", "plot-value"].map(n => made("span", n, plot.values)));
     series.forEach(({label, y, counts, colour}, index) => {
       const [dot, name, value] = plot.cells[index];
       dot.style.borderColor = colour;
@@ -180,45 +169,45 @@ window.tofscope ??= {};
   };
 
   const heightOf = plot => {
-    if (!state.enlarged) return HEIGHT + (plot.labelled ? LABELS : 0);
-    const words = state.plots.map(one => one.heading.offsetHeight + one.note.offsetHeight);
-    const taken = bar.offsetHeight + 20 + words.reduce((sum, height) => sum + height, 0);
-    return Math.max((window.innerHeight - taken) / state.plots.length, HEIGHT + LABELS);
+    const labels = plot.labelled ? LABELS : 0;
+    if (!state.enlarged) return HEIGHT + labels;
+    const words = state.plots.reduce((sum, {heading}) => sum + heading.offsetHeight, 0);
+    const room = (roomForPlots() - words - LABELS) / state.plots.length;
+    return Math.max(room, HEIGHT) + labels;
   };
-
-  let waiting = false;
-  const draw = () => {
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(() => {
-      waiting = false;
-      if (root.clientWidth > 0) drawNow();
-    });
-  };
+  const roomForPlots = () => window.innerHeight - bar.offsetHeight - 24;
 
   const drawNow = () => {
-    const text = getComputedStyle(root).color, [low, high] = view();
+    if (root.clientWidth === 0) return;
+    const text = getComputedStyle(root).color, [low, high] = view(), large = state.enlarged;
     const from = Math.max(data.indexOf(low) - 1, 0);
     const to = Math.min(data.indexOf(high) + 1, data.times.length);
-    state.plots.forEach((plot, index) => {
-      plot.labelled = state.enlarged || index === state.plots.length - 1;
-      plot.area.style.height = `${heightOf(plot)}px`;
+    const last = state.plots.length - 1;
+    state.plots.forEach((plot, index) => { plot.labelled = index === last; });
+    const heights = state.plots.map(heightOf);
+    state.plots.forEach((plot, index) => { plot.area.style.height = `${heights[index]}px`; });
+    for (const plot of state.plots) {
       const {context, width, height} = fitted(plot.canvas);
-      const area = areaOf(width, height, plot.labelled), series = seriesOf(plot.quantity);
+      const series = seriesOf(plot.quantity);
       const x = {low, high, title: "Time [s]"};
-      const y = plot.y = axisOf(plot.quantity, series.map(one => one.y), from, to);
-      drawAxes(context, area, x, y, {labelled: plot.labelled, text});
-      drawPoints(context, area, x, y, series, from, to);
-    });
-    const square = state.enlarged ? Math.min(window.innerHeight - 80, across.clientWidth) : SQUARE;
-    tofscope.plotPair.draw(state, {text, height: square, axisOf});
+      const y = axisOf(plot.quantity, series.map(one => one.y), from, to);
+      plot.within = areaOf(width, height, plot.labelled);
+      drawAxes(context, plot.within, x, y, {labelled: plot.labelled, text, large});
+      drawPoints(context, plot.within, x, y, series, from, to);
+    }
+    const pair = {text, large, height: large ? roomForPlots() : PAIR, axisOf, from, to};
+    tofscope.plotPair.draw(state, pair);
     state.drawn += 1;
-    mark();
+    markNow();
   };
+  const draw = once(drawNow);
 
   const enlarge = () => {
     state.enlarged = !state.enlarged;
     root.classList.toggle("enlarged", state.enlarged);
+    for (const {area, heading, note, values} of state.plots) {
+      if (state.enlarged) area.append(values); else heading.insertBefore(values, note);
+    }
     enlarging.textContent = state.enlarged ? "Close (Esc)" : "Enlarge";
     place();
     draw();
@@ -254,6 +243,7 @@ window.tofscope ??= {};
       Object.assign(state, {view: null, hovered: null, frame: 0, span: null});
       list.replaceChildren();
       state.plots = quantities.map(quantity => newPlot(quantity, list));
+      if (state.enlarged) for (const {area, values} of state.plots) area.append(values);
       place();
       draw();
     },
@@ -270,8 +260,9 @@ window.tofscope ??= {};
       data.add(...numbers);
       draw();
     },
-    // Writes {name: text} below the titles of plots.
-    say: notes => {
+    // Writes {name: text} below the titles of plots, and a sentence above enlarged ones.
+    say: (notes, sentence) => {
+      about.title = about.textContent = sentence;
       for (const {quantity, note} of state.plots)
         note.title = note.textContent = notes[quantity.name] ?? "";
     },
@@ -281,7 +272,7 @@ window.tofscope ??= {};
     },
     // Draws two quantities against each other, or none.
     pair: pair => {
-      tofscope.plotPair.build(across, pair, {made, on, hover, seek});
+      tofscope.plotPair.build(across, pair, {on, hover, seek});
       draw();
     },
     remove: () => {

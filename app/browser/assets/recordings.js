@@ -2,37 +2,29 @@
 // choose one.
 window.tofscope ??= {};
 {
-  const tofscope = window.tofscope;
+  const {tofscope} = window, {element: make} = tofscope;
   document.getElementById("tofscope-recordings")?.remove();  // of before a lost connection
 
-  const make = (parent, tag, className, text = "") => {
-    const element = document.createElement(tag);
-    element.className = className;
-    element.textContent = text;
-    parent?.append(element);
-    return element;
-  };
-
-  const dialog = make(document.body, "dialog", "tofscope-card");
+  const dialog = make("dialog", "tofscope-card", document.body);
   dialog.id = "tofscope-recordings";
   dialog.setAttribute("aria-label", "Recordings");
-  const search = make(dialog, "input", "tofscope-search");
+  const search = make("input", "tofscope-search", dialog);
   search.type = "search";
   search.placeholder = "Search by any part of the name";
   search.setAttribute("aria-label", "Search recordings");
   search.setAttribute("aria-controls", "tofscope-rows");
   search.autocomplete = "off";
   search.spellcheck = false;
-  const head = make(dialog, "div", "tofscope-row tofscope-head");
-  for (const title of ["Name", "Simulated", "Duration", "Frames", "Sensors", "Truth"])
-    make(head, "span", "", title);
-  const list = make(dialog, "div", "tofscope-rows");
+  const head = make("div", "tofscope-row tofscope-head", dialog);
+  for (const title of ["Name", "Data", "Duration", "Frames", "Sensors", "Truth"])
+    make("span", "", head, title);
+  const list = make("div", "tofscope-rows", dialog);
   list.id = "tofscope-rows";
   list.setAttribute("role", "listbox");
   list.setAttribute("aria-label", "Recordings");
-  const foot = make(dialog, "div", "tofscope-foot");
-  const count = make(foot, "span", "");
-  make(foot, "span", "", "↑ ↓ and Enter choose, Esc closes");
+  const foot = make("div", "tofscope-foot", dialog);
+  const count = make("span", "", foot);
+  make("span", "", foot, "↑ ↓ and Enter choose, Esc closes");
 
   let rows = [], active = null;
   const matching = () => rows.filter(row => !row.element.hidden);
@@ -48,13 +40,14 @@ window.tofscope ??= {};
     row.cells.replaceChildren();
     row.element.classList.toggle("unreadable", "reason" in about);
     if ("reason" in about) {
-      make(row.cells, "span", "tofscope-reason", about.reason);
+      make("span", "tofscope-reason", row.cells, about.reason);
       return;
     }
-    const {scenario, seconds, frames, sensors, truth} = about;
-    make(row.cells, "span", "", scenario || "measured");
+    const {simulated, scenario, seconds, frames, sensors, truth} = about;
+    const data = !simulated ? "measured" : scenario ? `simulated: ${scenario}` : "simulated";
+    make("span", "", row.cells, data).title = data;
     const numbers = [duration(seconds), frames.toString(), sensors.toString(), truth ? "yes" : "no"];
-    for (const text of numbers) make(row.cells, "span", "", text);
+    for (const text of numbers) make("span", "", row.cells, text);
   };
 
   const seen = new Set();  // places of the rows that are in view and not described yet
@@ -67,18 +60,18 @@ window.tofscope ??= {};
   }, {root: list});
 
   const row = (label, place, open) => {
-    const element = make(null, "div", "tofscope-row");
+    const element = make("div", "tofscope-row");
     element.setAttribute("role", "option");
     element.id = `tofscope-row-${place}`;
     element.dataset.place = place;
     element.title = label;
-    const name = make(element, "span", "tofscope-name");
+    const name = make("span", "tofscope-name", element);
     const [last, ...folders] = label.split("/").reverse();
-    if (folders.length) make(name, "span", "tofscope-folder", `${folders.reverse().join("/")}/`);
+    if (folders.length) make("span", "tofscope-folder", name, `${folders.reverse().join("/")}/`);
     name.append(last);
     element.setAttribute("aria-selected", String(label === open));
-    if (label === open) make(name, "span", "tofscope-open", "open");
-    const cells = make(element, "span", "tofscope-cells");
+    if (label === open) make("span", "tofscope-open", name, "open");
+    const cells = make("span", "tofscope-cells", element);
     return {element, cells, label, name: label.toLowerCase()};
   };
 
@@ -167,6 +160,8 @@ window.tofscope ??= {};
       }
     },
   };
+
+  tofscope.atOnce.o = tofscope.recordings.show;
 
   // Buttons beside the name of the open recording.
   if (!tofscope.recordingButtons) {

@@ -1,18 +1,11 @@
 // Images of all sensors in a grid, zone by zone, and the selected one enlarged below.
 window.tofscope ??= {};
 if (!window.tofscope.sensors) {
-  const tofscope = window.tofscope;
-  const HOST = "tofscope-sensors", GAP = 4, CAPTION = 14, TALLEST = 360, SMALLEST = 40;
+  const {tofscope} = window, {element, bytes} = tofscope;
+  const HOST = "tofscope-sensors", GAP = 4, CAPTION = 14, TALLEST = 360;
+  const SMALLEST = 40, IN_ROWS = 26, LARGEST = 120;  // pixels of an image's width
   let layout = null, images = null, marks = {}, seen = false, host = null, tiles = [], big = null;
 
-  const element = (tag, name, parent, text = "") => {
-    const made = document.createElement(tag);
-    made.className = name;
-    made.textContent = text;
-    parent.append(made);
-    return made;
-  };
-  const bytes = text => Uint8Array.from(atob(text), character => character.charCodeAt(0));
 
   const imageOf = sensor => {
     const [rows, columns] = layout.grids[sensor], at = layout.starts[sensor];
@@ -37,8 +30,15 @@ if (!window.tofscope.sensors) {
 
   // ---- elements
 
-  // As large as fits into a height, unless they get too small to be read.
+  // Number of columns, and width: a row for each group, else as large as fits into a height,
+  // unless they get too small to be read.
   const sizeOfTiles = (room, count) => {
+    if (layout.groups.length > 1) {
+      const most = Math.max(...layout.groups.map(({sensors}) => sensors.length));
+      const width = columns => Math.floor((room - (columns - 1) * GAP) / columns);
+      const columns = width(most) < IN_ROWS ? Math.ceil(most / 2) : most;
+      return [columns, Math.min(width(columns), LARGEST)];
+    }
     for (let columns = 1; ; columns++) {
       const width = Math.floor((room - (columns - 1) * GAP) / columns);
       const tall = Math.ceil(count / columns) * (width + CAPTION + GAP);
@@ -46,21 +46,26 @@ if (!window.tofscope.sensors) {
     }
   };
 
+  const buildTile = (sensor, grid) => {
+    const tile = element("div", "tofscope-sensor", grid);
+    tile.dataset.sensor = sensor;
+    element("canvas", "", tile).dataset.zones = sensor;
+    element("div", "tofscope-sensor-name", tile, layout.captions[sensor]).title = layout.names[sensor];
+    return tile;
+  };
+
   const build = () => {
     host.replaceChildren();
     host.tofscopeBuilt = layout;
     element("div", "tofscope-sensors-title", host);
     element("div", "tofscope-sensors-moving", host);
-    const grid = element("div", "tofscope-sensors-grid", host);
-    tiles = layout.names.map((name, sensor) => {
-      const tile = element("div", "tofscope-sensor", grid);
-      tile.dataset.sensor = sensor;
-      const canvas = element("canvas", "", tile);
-      canvas.dataset.zones = sensor;
-      const caption = element("div", "tofscope-sensor-name", tile, layout.short[sensor]);
-      caption.title = name;
-      return tile;
-    });
+    const grids = element("div", "tofscope-sensors-grids", host);
+    tiles = [];
+    for (const {name, sensors} of layout.groups) {
+      if (name) element("div", "tofscope-sensors-group", grids, name);
+      const grid = element("div", "tofscope-sensors-grid", grids);
+      for (const sensor of sensors) tiles[sensor] = buildTile(sensor, grid);
+    }
     big = element("div", "tofscope-sensor-big", host);
     element("div", "tofscope-sensors-legend", host);
   };
@@ -70,13 +75,15 @@ if (!window.tofscope.sensors) {
     if (host.tofscopeBuilt !== layout || !host.childElementCount) build();
     const room = host.clientWidth;
     if (!room) return;
-    const [title, moving, grid, , legend] = host.children;
+    const [title, moving, grids, , legend] = host.children;
     title.textContent = images.title;
     showMoving(moving);
     const [columns, width] = sizeOfTiles(room, tiles.length);
-    grid.hidden = tiles.length === 1;  // it is shown enlarged
-    grid.style.gap = `${GAP}px`;
-    grid.style.gridTemplateColumns = `repeat(${columns}, ${width}px)`;
+    grids.hidden = tiles.length === 1;  // it is shown enlarged
+    for (const grid of grids.querySelectorAll(".tofscope-sensors-grid")) {
+      grid.style.gap = `${GAP}px`;
+      grid.style.gridTemplateColumns = `repeat(${columns}, ${width}px)`;
+    }
     tiles.forEach((tile, sensor) => {
       tile.classList.toggle("moves", images.counts[sensor] > 0);
       tile.classList.toggle("absent", images.absent.includes(sensor));
@@ -94,7 +101,7 @@ if (!window.tofscope.sensors) {
     box.replaceChildren();
     const order = [...images.counts.keys()].filter(sensor => images.counts[sensor]);
     order.sort((a, b) => images.counts[b] - images.counts[a]);
-    element("span", "", box, order.length ? "Something moves before " : "Nothing moves in view.");
+    element("span", "", box, order.length ? "Something moves in front of " : "Nothing moves in view.");
     for (const sensor of order.slice(0, 8)) {
       const zones = sensor === order[0] ? " zones" : "";
       const text = `${layout.names[sensor]} (${images.counts[sensor]}${zones})`;
@@ -124,10 +131,15 @@ if (!window.tofscope.sensors) {
     box.replaceChildren();
     if (images.ramp) {
       const ramp = element("div", "tofscope-sensors-ramp", box);
-      element("span", "", ramp, "0 m");
-      element("span", "bar", ramp).style.background =
-        `linear-gradient(to right, ${images.ramp.join(", ")})`;
-      element("span", "", ramp, images.limit);
+      const gradient = `linear-gradient(to right, ${images.ramp.join(", ")})`;
+      images.ticks.forEach((tick, index) => {
+        if (index > 0) {
+          const part = (index - 1) / (images.ticks.length - 2);
+          element("span", "bar", ramp).style.background =
+            `${gradient} ${100 * part}% / ${100 * (images.ticks.length - 1)}%`;
+        }
+        element("span", "", ramp, tick);
+      });
     }
     for (const [sign, text] of images.legend) {
       const entry = element("span", "entry", box);

@@ -147,10 +147,7 @@
   };
   new ResizeObserver(show).observe(find(".tracks"));
 
-  const floats = text => {
-    const bytes = Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
-    return new Float32Array(bytes.buffer);
-  };
+  const floats = text => new Float32Array(tofscope.bytes(text).buffer);
 
   tofscope.timeline = {
     // A newly opened recording: its frames' seconds from the start, float32 in base64.
@@ -158,6 +155,7 @@
       Object.assign(state, {times: floats(times), values: null, zones: null, held: null});
       find(".speed").innerHTML =
         speeds.map(speed => `<option value="${speed}">${speed}x</option>`).join("");
+      find(".speed").value = String(state.speed);
       element.classList.remove("empty");
       marks.close();
       tracks.whole();
@@ -190,17 +188,20 @@
     },
   };
 
+  tofscope.atOnce.k = () => { if (!element.classList.contains("empty")) does.mark(); };
+
   let named = "";
   const names = () => {
-    const {options, chosen} = state.values, wanted = JSON.stringify([options, chosen]);
+    const {options, chosen, truth} = state.values;
+    const wanted = JSON.stringify([options, chosen, truth]);
     if (wanted === named) return;  // a list that is open would close
     named = wanted;
-    find(".names").innerHTML = tracks.rows().map(({name, y}) => name === "quantity"
+    find(".names").innerHTML = tracks.rows(truth).map(({name, y, hint}) => name === "quantity"
       ? `<select aria-label="Plotted quantity" style="top: ${y}px"
            title="The quantity drawn along the timeline">${options.map(([value, title]) =>
              `<option value="${value}" ${value === chosen ? "selected" : ""}>${title}</option>`)
                .join("")}</select>`
-      : `<span style="top: ${y}px">${name}</span>`).join("");
+      : `<span style="top: ${y}px" title="${hint}">${name}</span>`).join("");
     find(".names select").addEventListener("change", ({target}) => {
       tofscope.tell("strip", {name: target.value});
       target.blur();

@@ -34,8 +34,11 @@ window.tofscope.timelineTracks = (box, state) => {
     const seconds = state.times[frame], span = view.end - view.start;
     if (seconds < view.start || seconds > view.end) look(seconds - 0.1 * span, span);
   };
-  tracks.rows = () => [
-    {name: "motion", y: MOTION[0] - 4}, {name: "valid zones", y: ZONES[0] - 3},
+  tracks.rows = truth => [
+    {name: truth ? "true motion" : "motion", y: MOTION[0] - 4, hint: "Where something moves, "
+      + (truth ? "by the truth" : "by the estimates so far")
+      + ". Marked too: frames without points, and gaps where frames are missing"},
+    {name: "valid zones", y: ZONES[0] - 3, hint: "Share of the zones that have a valid distance"},
     {name: "quantity", y: STRIP[0] + 4},
   ];
 
@@ -68,6 +71,7 @@ window.tofscope.timelineTracks = (box, state) => {
       pen.fillRect(left, 11, 1, 4);
       pen.globalAlpha = 0.7;
       const half = pen.measureText(text).width / 2;
+      if (Math.abs(left - at(state.frame)) < half + 7) continue;  // below the playhead
       pen.fillText(text, Math.min(Math.max(left - half, 0), width() - 2 * half), 0);
     }
     pen.globalAlpha = 1;
@@ -139,8 +143,8 @@ window.tofscope.timelineTracks = (box, state) => {
     if (state.values) strip();
     range(ink, wide, high);
     pen.globalAlpha = 1;
-    for (const mark of state.marks) flag(at(mark.frame), colours.mark);
     playhead(at(state.frame), ink, high);
+    for (const mark of state.marks) flag(at(mark.frame), colours.mark);
     scrollbar(ink, wide, high);
   };
 
@@ -162,8 +166,8 @@ window.tofscope.timelineTracks = (box, state) => {
     pen.fillRect(left - 0.5, 0, 1, STRIP[0] + STRIP[1]);
     pen.beginPath();
     pen.moveTo(left, 0);
-    pen.lineTo(left + 9, 4);
-    pen.lineTo(left, 8);
+    pen.lineTo(left + 11, 4.5);
+    pen.lineTo(left, 9);
     pen.fill();
   };
 
@@ -257,7 +261,11 @@ window.tofscope.timelineTracks = (box, state) => {
     const {values, zones: shares} = state;
     const value = values?.values[frame];
     const known = value !== undefined && !Number.isNaN(value);
+    const within = stretches => stretches.some(([first, end]) => first <= frame && frame <= end);
     return [`frame ${frame}, ${state.times[frame].toFixed(3)} s`,
+      ...(within(state.moving) ? ["something moves"] : []),
+      ...(within(state.empty) ? ["no points"] : []),
+      ...(state.gaps.includes(frame) ? ["frames are missing before this one"] : []),
       ...(known ? [`${values.title}: ${Number(value.toPrecision(4))} ${values.unit}`] : []),
       ...(Number.isFinite(shares?.[frame])
         ? [`valid zones: ${Math.round(100 * shares[frame])} %`] : []),

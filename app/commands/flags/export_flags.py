@@ -33,6 +33,11 @@ MADE = {
         "FILE.csv|.npz",
         "every source point: x y z, vx vy vz, label, cluster, sensor, zone",
     ),
+    "plots": (
+        "FILE.pdf|.svg|.png|.csv",
+        "the plots over the whole recording, without Chromium; a .csv holds all their numbers",
+    ),
+    "clusters": ("FILE.csv", "the clusters of a frame, with every round of ICP"),
 }
 """{flag of what is made: (its value, its meaning)}."""
 
@@ -40,11 +45,11 @@ _STILLS, _ANIMATIONS = ("screenshot", "vector"), ("video", "images")
 _FIGURES = (*_STILLS, *_ANIMATIONS)
 _DRAWN = (*_FIGURES, "html")
 _APPLY = {
-    "frame": (*_STILLS, "flow"),
+    "frame": (*_STILLS, "flow", "clusters", "html"),
     "frames": (*_ANIMATIONS, "html", "flow"),
     "view": _DRAWN,
     "dark": _DRAWN,
-    "colours": _DRAWN,
+    "colours": (*_DRAWN, "plots"),
     "arrows": _DRAWN,
     "size": _FIGURES,
     "size_mm": _FIGURES,
@@ -66,7 +71,10 @@ def add_export_flags(parser: argparse.ArgumentParser) -> None:
         what.add_argument(f"--{name}", type=Path, metavar=value, help=meaning)
     shown = parser.add_argument_group("what it shows")
     shown.add_argument(
-        "--frame", type=int, metavar="K", help="frame k (default: one at which something moves)"
+        "--frame",
+        type=int,
+        metavar="K",
+        help="frame k, of a page the one it begins at (default: one at which something moves)",
     )
     shown.add_argument(
         "--frames",
@@ -85,7 +93,9 @@ def add_export_flags(parser: argparse.ArgumentParser) -> None:
         ),
     )
     shown.add_argument(
-        "--dark", action="store_true", help="draw on a dark ground (default: on white)"
+        "--dark",
+        action="store_true",
+        help="draw on a dark ground (default: on white, a page on a soft tone)",
     )
     shown.add_argument(
         "--colours",
@@ -152,9 +162,10 @@ def made(options: argparse.Namespace) -> str:
         value = getattr(options, name)
         if kind not in kinds and value is not None and value is not negated:
             flag = f"no-{name}" if negated else name
-            others = " and ".join(f"--{other}" for other in kinds)
+            *others, last = (f"--{other}" for other in kinds)
+            named = f"{', '.join(others)} and {last}" if others else last
             raise InputError(
-                f"--{flag.replace('_', '-')} applies only to {others}, not to --{kind}; leave it "
+                f"--{flag.replace('_', '-')} applies only to {named}, not to --{kind}; leave it "
                 "out."
             )
     if options.dpi is not None and options.size_mm is None:
@@ -196,7 +207,8 @@ def view_settings(options: argparse.Namespace) -> "ViewSettings":
     from app.scene.palettes import PALETTES
     from app.scene.settings import ARROW_COLOURS, SOFT, TRANSPARENT, WHITE, ViewSettings
 
-    behind = SOFT if options.dark else WHITE
+    # White is for paper; a page is looked at on a screen, as the app is.
+    behind = SOFT if options.dark or options.html is not None else WHITE
     return ViewSettings(
         colours=dict(zip(_COLOURS, PALETTES, strict=True))[options.colours or _COLOURS[0]],
         arrow_colours=dict(zip(_ARROWS, ARROW_COLOURS, strict=True))[options.arrows or _ARROWS[0]],

@@ -60,8 +60,9 @@ def found(catalogue, entries):
 
 def test_facts_of_good_ones_and_reasons_of_bad_ones(catalogue, library, opener, tmp_path, caplog):
     told = found(catalogue, library.listing())
-    assert told["a"] == Facts("", told["a"].seconds, 40, 1, truth=True)
+    assert told["a"] == Facts(False, "", told["a"].seconds, 40, 1, truth=True)
     assert told["a"].seconds == pytest.approx(39 / 15)
+    assert told["sim"].simulated
     assert told["sim"].scenario == "towards, 0.25 m/s, trial 3"
     assert told["bad"] == Unreadable("It is no recording.")
     assert told["odd"] == Unreadable("It cannot be opened (ValueError: odd).")

@@ -9,7 +9,7 @@ from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
-from app.analysis.timeline import Timeline, gaps, neighbour, stretches
+from app.analysis.timeline import Timeline, gaps, has_counting_pair, neighbour, stretches
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
 
@@ -60,6 +60,15 @@ def without_truth() -> Any:
     recording.truth = lambda _: None
     recording.pair_truth = lambda *_: None
     return recording
+
+
+@pytest.mark.parametrize(
+    ("n", "counts"), [(1, True), (4, True), (5, False), (6, True), (12, True), (13, False)]
+)
+def test_a_pair_counts_where_something_moves_at_both_ends(n, counts):
+    timeline = Timeline(20, gaps=(), empty=(), moving=((2, 6), (12, 14)))
+    assert has_counting_pair(timeline, n) == counts
+    assert not has_counting_pair(timeline, 40)
 
 
 def test_the_truth_and_the_poses_fill_the_timeline():

@@ -155,6 +155,21 @@ def test_notices_have_classes():
     )
 
 
+def test_the_notice_of_drawing_by_software_can_be_removed():
+    in_page(
+        "`webgl-software-rendering`",
+        "`RemoveNotificationMessage`",
+        why="it stays over the scene (assets/notices.js)",
+    )
+
+
+def test_the_panel_of_a_phone_is_found():
+    in_page(
+        r"position:`fixed`,bottom:0,right:0.{,80}maxHeight:`60%`,width:`20em`",
+        why="it lies behind the timeline (assets/timeline.css)",
+    )
+
+
 def test_a_ray_through_the_pointer_can_be_computed():
     in_page(
         r"__viserMutable=\w+\.current",

@@ -29,7 +29,11 @@ def room(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
-        ([], 2, "one of the arguments --screenshot --vector --video --images --html --flow is"),
+        (
+            [],
+            2,
+            "one of the arguments --screenshot --vector --video --images --html --flow --plots",
+        ),
         (["--screenshot", "a.png", "--html", "a.html"], 2, "not allowed with argument"),
         (["--screenshot", "a.png", "--size", "1600"], 2, "a size is written 1600x900"),
         (["--screenshot", "a.png", "--size", "9x900"], 2, "each side from 16 to 4096"),
@@ -39,8 +43,13 @@ def room(tmp_path):
         (["--screenshot", "a.png", "--frame", "-1"], 1, "room has no frame -1"),
         (["--html", "a.html", "--frames", ":9"], 1, "room has no frame 9"),
         (["--html", "a.html", "--frames", "2:1"], 1, "must not be before the first; got 2:1"),
-        (["--html", "a.html", "--frame", "1"], 1, "--frame applies only to --screenshot"),
-        (["--html", "a.html", "--frame", "0"], 1, "--frame applies only to --screenshot"),
+        (["--html", "a.html", "--frame", "9"], 1, "room has no frame 9"),
+        (
+            ["--html", "a.html", "--frame", "0", "--frames", "1:2"],
+            1,
+            "The page has no frame 0: --frames leaves it out",
+        ),
+        (["--video", "a.gif", "--frame", "0"], 1, "--frame applies only to --screenshot, --vector"),
         (["--html", "a.html", "--no-legend"], 1, "--no-legend applies only to --screenshot"),
         (["--screenshot", "a.png", "--frames", "1:2"], 1, "--frames applies only to --video"),
         (["--screenshot", "a.png", "--speed", "2"], 1, "--speed applies only to --video"),
@@ -59,6 +68,10 @@ def room(tmp_path):
         (["--flow", "a.csv", "--frame", "1", "--frames", "1:2"], 1, "leave one out"),
         (["--flow", "a.csv", "--frame", "1"], 1, "There is no flow: no frame lies n before"),
         (["--flow", "a.csv", "--dark"], 1, "--dark applies only to"),
+        (["--plots", "a.jpg"], 1, "a.jpg must end in .pdf or .svg or .png or .csv"),
+        (["--plots", "a.pdf", "--frame", "1"], 1, "--frame applies only to"),
+        (["--clusters", "a.pdf"], 1, "a.pdf must end in .csv"),
+        (["--clusters", "a.csv", "--frame", "1"], 1, "There are no clusters: no frame lies n"),
         (["--images", "room.mcap"], 1, "room.mcap is no folder"),
         (["--html", "a.html", "--view", "3d", "top"], 1, "An offline page has one view, got 2"),
         (["--screenshot", "no/a.png"], 1, "no/a.png cannot be written: there is no folder"),
@@ -85,6 +98,27 @@ def test_a_file_that_cannot_be_written_is_said_before_anything_is_computed(
     code, said = refusal(capsys, room, "--html", place / "a.html")
     assert code == 1
     assert "cannot be written: permission denied" in said
+
+
+@pytest.mark.parametrize("ending", ["csv", "pdf", "png", "svg"])
+def test_plots_are_made_and_made_again_and_replace_nothing_else(room, tmp_path, capsys, ending):
+    place = tmp_path / f"plots.{ending}"
+    for _ in range(2):
+        assert main(["export", str(room), "--plots", str(place), "--n", "1"]) == 0
+        assert "3 frames of room" in capsys.readouterr().out
+    place.write_text("mine")
+    code, said = refusal(capsys, room, "--plots", place)
+    assert code == 1
+    assert "was not made by this command" in said
+
+
+def test_the_clusters_of_a_frame_are_made_as_a_table(room, tmp_path, capsys):
+    place = tmp_path / "clusters.csv"
+    command = ["export", str(room), "--clusters", str(place), "--frame", "2", "--n", "1"]
+    for _ in range(2):
+        assert main(command) == 0
+        assert "frame 2 of room" in capsys.readouterr().out
+    assert place.read_text().startswith("# Tofscope clusters of frame 2; recording room.mcap; ")
 
 
 def test_a_path_that_is_no_recording(tmp_path, capsys):

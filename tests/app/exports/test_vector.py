@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from app.analysis.comparison import Comparison
 from app.analysis.estimates import Estimates
 from app.exports.drawn_pair import DrawnPair
 from app.exports.figure_settings import FigureSettings
@@ -27,10 +28,14 @@ PRINTED = FigureSettings(FigureSize.in_millimetres(88, 62), (SLANTED, ABOVE))
 CAMERA = Camera((4.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.6)
 
 
-def drawing(kind=SVG, settings=None, figure=PRINTED):
-    pair = Estimates().estimated(fake_opened(), 20, Parameters())
+def pair(n=8):
+    return Estimates().estimated(fake_opened(), 20, Parameters(n=n))
+
+
+def drawing(kind=SVG, settings=None, figure=PRINTED, drawn=None):
     shown = settings or ViewSettings()
-    return vector_figure(fake_recording(), DrawnPair(pair), Parameters(), shown, figure, kind)
+    drawn = drawn or DrawnPair(pair(), Parameters())
+    return vector_figure(fake_recording(), drawn, shown, figure, kind)
 
 
 def fills(svg: bytes) -> set[str]:
@@ -42,7 +47,7 @@ def test_text_is_text_and_the_size_is_that_of_the_figure():
     root = ElementTree.fromstring(svg)
     assert float(root.attrib["width"].removesuffix("pt")) == pytest.approx(249.4, abs=0.5)
     texts = {text.text for text in root.iter("{http://www.w3.org/2000/svg}text")}
-    assert {"(a)", "(b)", "Target", "x", "y", "z"} <= texts
+    assert {"(a)", "(b)", "Target: moving", "x", "y", "z"} <= texts
     assert any(text and text.startswith("fake") and "frame 20 of 39" in text for text in texts)
     sizes = re.findall(r"font-size: ([\d.]+)px", svg.decode())
     assert sizes
@@ -54,6 +59,45 @@ def test_points_and_arrows_have_the_colours_of_the_legend():
     assert {css(palette.source), css(palette.target), css(palette.flow)} <= fills(drawing())
     hidden = frozenset(ViewSettings().layers - {"Flow", "Frustums"})
     assert css(palette.flow) not in fills(drawing(settings=replace(ViewSettings(), layers=hidden)))
+
+
+def texts_of(svg: bytes) -> set[str]:
+    root = ElementTree.fromstring(svg)
+    return {text.text or "" for text in root.iter("{http://www.w3.org/2000/svg}text")}
+
+
+def test_a_picked_cluster_has_a_box_a_label_and_an_entry_in_the_legend():
+    shown = pair()
+    assert shown.flow is not None
+    picked = shown.flow.clusters[0]
+    svg = drawing(drawn=DrawnPair(shown, Parameters(), picked=picked))
+    colour = css(ViewSettings().palette.picked)
+    assert f"stroke: {colour}" in svg.decode()
+    label = f"Cluster {picked.index}: {picked.label.name.lower()}"
+    assert {label, f"Picked: cluster {picked.index}"} <= texts_of(svg)
+    assert colour not in fills(drawing())
+
+
+def test_where_a_and_b_are_drawn_the_file_says_so_of_both():
+    both = Comparison(Parameters(n=4), "B", both=True)
+    drawn = DrawnPair(pair(), Parameters(), both, pair(n=4))
+    texts = texts_of(drawing(drawn=drawn))
+    assert {
+        "Flow of A: displacement in 0.27 s × 1",
+        "Flow of B: displacement in 0.53 s × 1",
+    } <= texts
+    assert any("A: paper n 4" in text for text in texts)
+    palette = ViewSettings().palette
+    assert {css(palette.flow), css(palette.second)} <= fills(drawing(drawn=drawn))
+
+
+def test_an_optical_frame_does_not_say_where_the_ground_is():
+    recording = fake_recording()
+    grid = css(ViewSettings().palette.grid[1])
+    assert grid in fills(drawing())
+    recording.fixed_frame = "camera_optical_frame"
+    drawn = DrawnPair(pair(), Parameters())
+    assert grid not in fills(vector_figure(recording, drawn, ViewSettings(), PRINTED, SVG))
 
 
 def test_equal_drawings_are_equal_files_that_say_what_they_show():
@@ -70,15 +114,17 @@ def test_a_sample_is_small_and_shows_its_robot():
     path = next(path for path in sample_paths() if "robot_moving" in path.name)
     with open_recording(path) as recording:
         pair = Estimates().estimated(fake_opened(recording), 24, Parameters())
-        drawn = DrawnPair(pair)
+        drawn = DrawnPair(pair, Parameters())
         settings = ViewSettings()
         svg, bare = (
-            vector_figure(recording, drawn, Parameters(), shown, PRINTED, SVG)
+            vector_figure(recording, drawn, shown, PRINTED, SVG)
             for shown in (settings, replace(settings, layers=settings.layers - {"Robot"}))
         )
     assert len(svg) < 2e6
     assert len(svg) > len(bare) + 100_000
     assert b"simulated" in svg
+    assert b"#cc0000" in svg, "the fixed frame has no axes"
+    assert len(re.findall(rb"fill-opacity: 0\.0", svg)) > 20, "there is no shadow"
 
 
 def cube(middle) -> Solid:

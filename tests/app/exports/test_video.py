@@ -1,9 +1,12 @@
 import io
+import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from app.analysis.comparison import Comparison
 from app.analysis.estimates import Estimates
 from app.errors import InputError
 from app.exports import animation
@@ -11,6 +14,7 @@ from app.exports.animation import Animation
 from app.exports.ffmpeg import find_ffmpeg, mp4
 from app.exports.figure_settings import FigureSettings
 from app.exports.figure_size import FigureSize
+from app.exports.images import zipped_pictures
 from app.exports.video import GIF, MP4, counts, ticks, video
 from app.scene.settings import ViewSettings
 from app.scene.views import ABOVE, SLANTED
@@ -36,12 +40,10 @@ class Browser:
 
     @property
     def legend(self):
-        from app.scene.legend import legend
+        return self.shown[-1].legend(ViewSettings())
 
-        return legend(self.shown[-1], ViewSettings(), 0.3)
-
-    def show(self, pair):
-        self.shown.append(pair)
+    def show(self, drawn):
+        self.shown.append(drawn)
 
     def settled(self, camera):
         self.cameras.append(camera)
@@ -89,7 +91,7 @@ def test_a_gif_shows_each_frame_as_long_as_it_lasted(browser):
             lasting.append(picture.info["duration"])
     assert lasting == [200, 600, 200, 200, 200, 200]
     assert done == list(range(6))
-    assert [pair.frame for pair in browser.shown] == list(range(16, 22))
+    assert [drawn.pair.frame for drawn in browser.shown] == list(range(16, 22))
     assert browser.closed
 
 
@@ -103,6 +105,33 @@ def test_the_camera_is_still_or_goes_from_view_to_view(browser):
     np.testing.assert_allclose(browser.cameras[0].position, still.position, atol=1e-9)
     above = np.subtract(browser.cameras[-1].position, browser.cameras[-1].look_at)
     assert above[2] > 100 * np.hypot(*above[:2])
+
+
+def test_an_animation_shows_what_the_app_shows(browser):
+    estimates, opened = Estimates(), fake_opened()
+    shown = estimates.estimated(opened, 18, Parameters())
+    assert shown.flow is not None
+    index = shown.flow.clusters[0].index
+    both = Comparison(Parameters(n=4), both=True)
+    list(
+        replace(moving(), comparison=both, picked=(shown, index)).pictures(
+            estimates, lambda _: None
+        )
+    )
+    assert all(drawn.second.interval == pytest.approx(4 / 15) for drawn in browser.shown)
+    assert all(drawn.side == "A" for drawn in browser.shown)
+    followed = {drawn.pair.frame: drawn.picked for drawn in browser.shown}
+    assert followed[18] is not None
+    assert followed[18].index == index
+
+
+def test_pictures_are_numbered_in_a_zip_file(browser):
+    content = zipped_pictures(moving(), Estimates(), lambda _: None)
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        assert archive.namelist() == [f"frame_{k:06d}.png" for k in range(16, 22)]
+        with Image.open(archive.open("frame_000017.png")) as picture:
+            assert picture.info["Frame"].startswith("17 of ")
+    assert browser.closed
 
 
 def test_an_animation_can_be_ended(browser):

@@ -7,7 +7,7 @@ from app.analysis.comparison import A, B, Comparison
 from app.analysis.estimates import Estimates
 from app.analysis.survey import Survey
 from app.panels.compare import ComparePanel
-from app.panels.differences import changes, difference_table, totals
+from app.panels.differences import Totals, changes, difference_table, other_pairs, totals, verdict
 from estimator import Parameters
 from tests.app.analysis.test_survey import filled
 from tests.app.fake_recordings import fake_opened
@@ -73,7 +73,33 @@ def test_no_side_is_the_better_one_before_the_whole_recording_is_computed(estima
     for survey in surveys:
         survey.put(20, estimates.estimated(opened, 20, survey.parameters))
     said = said_of(None, None, *map(totals, surveys))
-    assert said["Precision"] == ["–", "–", "1.000", "0.200"]
+    assert said["Precision"] == ["–"] * 4
+
+
+@pytest.mark.parametrize(
+    ("of_b", "said"),
+    [
+        ({}, "A and B are equally good."),
+        ({"angle_deg": 12.0}, "<b>A is better</b>, in angle deviation; the rest is equal."),
+        (
+            {"coverage": 1.0, "angle_deg": 12.0, "precision": 0.1},
+            "<b>A is better in angle deviation and precision, B in coverage</b>.",
+        ),
+        ({"angle_deg": 10.0001}, "A and B are equally good."),  # as they are written
+    ],
+)
+def test_a_sentence_says_which_is_better_over_the_recording(of_b, said):
+    numbers = {"angle_deg": 10.0, "velocity_error": 0.1, "coverage": 0.5, "precision": 0.5}
+    a, b = (Totals(values, "9 of 10", complete=True) for values in (numbers, numbers | of_b))
+    assert verdict({A: a, B: b}) == f"Over the whole recording {said}"
+    assert verdict({A: a, B: replace(b, complete=False)}) == ""
+    assert verdict({A: a, B: None}) == ""
+    assert other_pairs({A: a, B: b}) == other_pairs({A: a, B: None}) == ""
+    assert "9 of 10 count for A, 8 of 9 for B" in other_pairs(
+        {A: a, B: replace(b, counting="8 of 9")}
+    )
+    unknown = replace(a, numbers=dict.fromkeys(numbers, float("nan")))
+    assert verdict({A: unknown, B: unknown}).startswith("No pair counts")
 
 
 def test_changed_parameters_are_named_and_no_others():

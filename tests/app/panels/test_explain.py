@@ -79,6 +79,9 @@ def test_the_round_that_tells_is_the_one_that_decided_or_the_one_of_the_highest_
     assert telling_round(given_up) is rounds[1]
     for cluster in (replace(moving, rounds=()), replace(given_up, rounds=())):
         assert telling_round(cluster) is None
+    told = story(given_up, Parameters(), COLOURS)
+    assert "The fitness was 0.60 at best, in round 2; γ is 0.7." in told
+    assert "at best" not in story(decided, Parameters(), COLOURS)
     table = cluster_table([given_up], None, COLOURS, no_click)
     assert "0.60" in table
     assert "0.080 m" in table
@@ -139,6 +142,8 @@ def test_the_panel_lists_the_clusters_and_tells_the_picked_ones_story(client, mo
     assert client.control("Cluster").value == "none"
     assert moving.reason not in client.text()
     panel.show(replace(now, picked=moving.index))
+    panel.show(replace(now, picked=moving.index))
+    assert client.called("story.show") == [[]]  # once: it may be below the edge of the panel
     assert client.control("Cluster").value == f"{moving.index} moving"
     assert moving.reason in client.text()
     text = client.text()  # in the order of the page

@@ -8,6 +8,7 @@ from app.analysis.estimates import Estimates
 from app.analysis.library import Entry, Opened
 from app.errors import InputError
 from app.panels.offline_page import SaveOfflinePage
+from app.session.clock import PlaybackClock
 from app.session.links import SavedSession
 from app.session.outbox import Download
 from app.session.tasks import Tasks
@@ -37,7 +38,13 @@ class Bench(SimpleNamespace):
     """As much of a workbench as the command needs."""
 
     def __init__(self):
-        super().__init__(tasks=Tasks(self._receive), estimates=Estimates(), messages=[])
+        super().__init__(
+            tasks=Tasks(self._receive),
+            estimates=Estimates(),
+            messages=[],
+            pair=None,
+            clock=PlaybackClock(fake_recording().stamps),
+        )
 
     def _receive(self, event):
         self.messages += self.tasks.receive(event)

@@ -42,7 +42,7 @@ def test_controls_are_those_of_the_method_that_is_chosen(client, own):
     announce(status(parameters=own, parameters_revision=1))
     for label in ("n", "v_0", "robust", "max range [m]", "method"):
         assert visible(client, label), label
-    for label in ("γ", "δ", "N_min", "min cluster size", "min samples"):
+    for label in ("γ", "δ", "N_min", "min cluster size", "min samples (0 = unset)"):
         assert not visible(client, label), label
     assert client.control("Reset").options == ("n", "v_0", "others", "all")
     announce(status(parameters_revision=2))

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.panels.parameters import MoreParametersPanel, ParametersPanel
+from app.browser.internals import element_id
+from app.panels.parameters import HoldSlider, MoreParametersPanel, ParametersPanel
 from app.session.commands import ChangeParameters, ResetParameters
 from estimator import PARAMETER_INFO, Parameters
 from tests.app.fake_recordings import fake_opened, fake_recording
@@ -24,33 +25,66 @@ def test_sliders_and_method_are_in_one_panel_and_all_others_in_another(client):
     ParametersPanel(surroundings)
     assert [label for label in ("n", "γ", "δ", "N_min", "method") if client.control(label)]
     with pytest.raises(AssertionError):
-        client.control("min samples")
+        client.control("min samples (0 = unset)")
     MoreParametersPanel(surroundings)
-    for label in ("min cluster size", "min samples", "allow single cluster", "max range [m]"):
+    for label in (
+        "min cluster size",
+        "min samples (0 = unset)",
+        "allow single cluster",
+        "max range [m]",
+    ):
         assert client.control(label)
     assert client.control("Reset").options == ("n", "γ", "δ", "N_min", "others", "all")
     assert client.control("History").options == ("undo", "redo")
 
 
-def test_a_correction_is_said_in_the_panel_of_its_control(client):
+def test_a_correction_is_said_at_the_field_of_its_control_each_time_and_forgotten(client):
     panel = ParametersPanel(context(client))
-    panel.announce(status(corrections={"gamma": SAID}))
-    assert SAID in client.text()
-    panel.announce(status(corrections={"gamma": SAID, "min_samples": "elsewhere"}))
-    assert SAID in client.text()
-    assert "elsewhere" not in client.text()
-    panel.announce(status(corrections={"gamma": SAID, "n": "the <last>"}))
-    assert SAID not in client.text()
-    assert "the &lt;last&gt;" in client.text()
-    panel.announce(status())
-    assert "the &lt;last&gt;" not in client.text()
+    gamma, n = (element_id(client.control(label)) for label in ("γ", "n"))
+    for _ in range(2):
+        panel.announce(status(corrections={"gamma": SAID}, corrected=1))
+    panel.announce(status(corrections={"gamma": SAID}, corrected=2))
+    assert client.called("fields.say") == [[gamma, SAID], [gamma, SAID]]
+    panel.announce(status(corrections={"n": "the <last>"}, corrected=3))
+    panel.announce(status(corrections={"min_samples": "elsewhere"}, corrected=4))
+    panel.announce(status(corrected=4))
+    assert client.called("fields.say")[2:] == [[gamma, ""], [n, "the <last>"], [n, ""]]
+
+
+def test_fields_know_their_rules_and_the_new_one_where_a_recording_changes_it(client):
+    panels = [made(context(client)) for made in (ParametersPanel, MoreParametersPanel)]
+
+    def rules():
+        for panel in panels:
+            panel.announce(status())
+        return {element: (rule, whole) for element, rule, whole in client.called("fields.rule")}
+
+    def rule(label):
+        return rules()[element_id(client.control(label))]
+
+    assert rule("γ") == ("From 0 to 1; one beyond becomes the nearest.", False)
+    assert rule("n") == ("Whole numbers from 1 to 20 frames; one beyond becomes the nearest.", True)
+    assert "or 0 for unset; one beyond" in rule("min samples (0 = unset)")[0]
+    sent = len(client.called("fields.rule"))
+    panels[0].open(fake_opened(fake_recording(frames=8)))
+    assert rule("n")[0].startswith("Whole numbers from 1 to 7 frames;")
+    assert len(client.called("fields.rule")) == sent + 1
+
+
+def test_what_is_entered_while_a_slider_is_pressed_is_one_change(client):
+    posted = []
+    ParametersPanel(context(client, posted.append))
+    for held in (True, False):
+        client.tell("slider", {"held": held})
+    client.tell("slider", {"held": "yes"})
+    assert posted == [HoldSlider(True), HoldSlider(False)]
 
 
 def test_controls_are_left_alone_until_a_revision_shows_all_anew(client):
     surroundings = context(client)
     panels = [ParametersPanel(surroundings), MoreParametersPanel(surroundings)]
     client.change("δ", 0.3)
-    client.change("min samples", 5)
+    client.change("min samples (0 = unset)", 5)
 
     def announce(state):
         for panel in panels:
@@ -60,7 +94,7 @@ def test_controls_are_left_alone_until_a_revision_shows_all_anew(client):
     assert client.control("δ").value == 0.3  # which a person may be moving
     announce(status(parameters=Parameters(delta=0.1), parameters_revision=1))
     assert client.control("δ").value == 0.1
-    assert client.control("min samples").value == 0
+    assert client.control("min samples (0 = unset)").value == 0
 
 
 def test_a_slider_is_wider_only_while_a_value_from_elsewhere_needs_it(client):
@@ -112,15 +146,15 @@ def test_a_field_has_the_range_of_its_parameter_and_zero_where_it_may_be_unset(c
     posted = []
     MoreParametersPanel(context(client, posted.append))
     info = PARAMETER_INFO["min_samples"]
-    client.change("min samples", 5)
-    client.change("min samples", 0)
+    client.change("min samples (0 = unset)", 5)
+    client.change("min samples (0 = unset)", 0)
     taken = {"min_samples": (0, info.high)}
     assert posted == [
         ChangeParameters({"min_samples": 5}, taken),
         ChangeParameters({"min_samples": None}, taken),
     ]
     # By which a browser corrects what was typed once the field is left.
-    assert ends(client, "min samples") == (0, info.high)
+    assert ends(client, "min samples (0 = unset)") == (0, info.high)
     assert ends(client, "min cluster size") == (2, PARAMETER_INFO["min_cluster_size"].high)
 
 

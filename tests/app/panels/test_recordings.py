@@ -1,7 +1,8 @@
 """The name of the open recording, the list behind it, and the notes on it."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
+import numpy as np
 import pytest
 
 from app.analysis.catalogue import Facts, Unreadable
@@ -17,8 +18,9 @@ from app.panels.recordings import (
 )
 from app.session.choice import Listing
 from app.session.commands import OpenRecording
+from estimator import Parameters
 from recordings import Provenance
-from tests.app.fake_recordings import fake_opened, fake_recording
+from tests.app.fake_recordings import SPEED, fake_opened, fake_recording
 from tests.app.fake_session import context, snapshot, status
 from tests.app.waiting import until
 
@@ -100,10 +102,23 @@ def test_the_assumption_behind_a_truth_frame_is_a_note(client):
     assert note.endswith("every point moves with torso.")
 
 
+def test_a_recording_says_where_no_pair_counts_with_this_n(client):
+    fake = fake_recording()
+    fake.truth = lambda k: SPEED if 5 <= k < 10 else np.zeros(3)
+    panel, opened = RecordingsPanel(context(client)), fake_opened(fake)
+    for n, said in ((4, False), (5, True), (4, False)):
+        panel.show(snapshot(opened=opened, parameters=Parameters(n=n)))
+        notes = client.shown("notes.fill")
+        assert bool(notes and notes[1]) == said
+        if said:
+            assert notes[1][0].startswith("The recording has no pair that counts: ")
+            assert notes[1][0].endswith(f"n is {n}.")
+
+
 def test_the_list_is_filled_once_it_is_looked_at_and_then_with_what_is_new(client):
     panel = RecordingsPanel(context(client))
     a, b = fake_opened().entry, Entry("dir/b", fake_opened().entry.path)
-    facts = Facts("", 2.6, 40, 1, truth=True)
+    facts = Facts(simulated=False, scenario="", seconds=2.6, frames=40, sensors=1, truth=True)
     panel.announce(status(listing=Listing((a, b)), opened=fake_opened()))
     assert client.called("recordings.fill") == []
     listing = Listing((a, b), {"fake": facts}, looks=1)
@@ -112,7 +127,7 @@ def test_the_list_is_filled_once_it_is_looked_at_and_then_with_what_is_new(clien
     listing = replace(listing, about={"fake": facts, "dir/b": Unreadable("b is bad.")})
     panel.announce(status(listing=listing, opened=fake_opened()))
     panel.announce(status(listing=listing, opened=fake_opened()))
-    told = {"scenario": "", "seconds": 2.6, "frames": 40, "sensors": 1, "truth": True}
+    told = asdict(facts)
     assert client.called("recordings.describe") == [
         [{"fake": told}],
         [{"dir/b": {"reason": "b is bad."}}],

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from app.analysis.comparison import A, Comparison
+from app.analysis.estimates import Estimates
 from app.errors import InputError
 from app.panels.save_plots import SavePlots
 from app.scene.settings import ViewSettings
@@ -18,11 +19,12 @@ from tests.app.waiting import until
 
 
 class Library:
-    def __init__(self):
-        self.opened = 0
+    def __init__(self, held):
+        self.held, self.opened = held, 0
 
     def open(self, entry):
         self.opened += 1
+        return self.held
 
     def release(self, entry):
         self.opened -= 1
@@ -38,7 +40,8 @@ def bench_of(comparison=None, **surveys) -> Any:
         outbox=[],
         tasks=Tasks(events.append),
         events=events,
-        library=Library(),
+        library=Library(opened),
+        estimates=Estimates(),
         plotted_pair=None,
         settings=ViewSettings(),
     )
@@ -67,7 +70,8 @@ def test_a_picture_is_drawn_in_the_background_while_the_recording_stays_open(sur
     with pytest.raises(InputError, match="already"):
         SavePlots(form).apply(workbench)
     until(lambda: workbench.events, timeout=60)
-    ((file,),) = [event.messages for event in workbench.events]
+    ((file, notice),) = [event.messages for event in workbench.events]
+    assert notice.sentence.startswith(f"fake_plots.{form}, ")
     assert file.name == f"fake_plots.{form}"
     assert file.content.startswith(begin)
     assert workbench.library.opened == 0

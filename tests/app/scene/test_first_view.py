@@ -77,7 +77,7 @@ def test_what_moves_is_in_the_picture_however_far_it_is():
     moving = np.array([0.0, 2.0, 0.5]) + rng.uniform(-0.1, 0.1, (50, 3))
     points = np.vstack([near, moving])
     poses = np.stack([looking([0.1, 0, 0], [1, 0, 0]), looking([-0.1, 0, 0], [-1, 0, 0])])
-    assert visible(first_view(points, poses, np.eye(3), FOV, ASPECT, [moving]), moving).all()
+    assert visible(first_view(points, poses, np.eye(3), FOV, ASPECT, moving), moving).all()
 
 
 def test_a_single_sensor_is_seen_with_what_it_looks_at_far_away():

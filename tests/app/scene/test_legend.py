@@ -21,7 +21,7 @@ from estimator import Parameters
 from tests.app.fake_recordings import fake_opened
 from tests.app.fake_session import context, snapshot
 
-FLOW = "Flow: displacement in 0.53 s"
+FLOW = "Flow: displacement in 0.53 s × 1"
 
 
 @pytest.fixture(scope="module")
@@ -38,14 +38,18 @@ def test_it_says_what_is_drawn(pair):
         "Source: moving",
         "Source: stationary",
         "Source: unassigned",
-        "Target",
+        "Target: moving",
+        "Target: static",
         FLOW,
         "True displacement",
         "True object",
     ]
     fewer = ViewSettings(layers=frozenset(LAYERS) - {"Target", "Flow"}, static_scene=HIDDEN)
-    assert not {"Source: stationary", "Target", FLOW} & set(texts(pair, fewer))
-    assert FLOW.replace(": ", ": 2 x ") in texts(pair, ViewSettings(arrow_scale=2.0))
+    assert not [text for text in texts(pair, fewer) if text.startswith(("Target", "Flow"))]
+    assert "Source: stationary" not in texts(pair, fewer)
+    assert "Target" in texts(pair, ViewSettings(static_scene=SHOWN))
+    twice = texts(pair, ViewSettings(arrow_scale=2.0))
+    assert {FLOW.replace("× 1", "× 2"), "True displacement × 2"} <= set(twice)
 
 
 def test_static_points_have_the_colour_that_is_drawn(pair):
@@ -61,19 +65,21 @@ def test_static_points_have_the_colour_that_is_drawn(pair):
 def test_colours_of_arrows_are_said_with_units_and_limits(pair):
     ramp = legend(pair, ViewSettings(arrow_colours=BY_SPEED), 0.3).ramp
     assert ramp is not None
-    assert (ramp.low, ramp.high) == ("Flow: 0", "0.3 m/s")
+    assert (ramp.low, ramp.high) == ("Flow in 0.53 s × 1: 0", "0.3 m/s")
     ramp = legend(pair, ViewSettings(arrow_colours=BY_DIRECTION), 0.3).ramp
     assert ramp is not None
-    assert ramp.low == "Flow: −180°"
+    assert ramp.low == "Flow in 0.53 s × 1: −180°"
     (cluster,) = set(pair.flow.cluster[pair.flow.label == 2])
-    assert f"Flow: cluster {cluster}" in texts(pair, ViewSettings(arrow_colours=BY_CLUSTER))
+    assert f"Flow × 1: cluster {cluster}" in texts(pair, ViewSettings(arrow_colours=BY_CLUSTER))
 
 
 def test_a_second_flow_is_said_where_it_is_drawn(pair):
-    colours = {entry.text: entry.colour for entry in legend(pair, ViewSettings(), 0.3, A).entries}
+    second = Estimates().estimated(fake_opened(), 20, Parameters(n=4))
+    drawn = legend(pair, ViewSettings(), 0.3, A, second=second)
+    colours = {entry.text: entry.colour for entry in drawn.entries}
     palette = ViewSettings().palette
-    assert colours["Flow of A: displacement in 0.53 s"] == palette.flow
-    assert colours["Flow of B: displacement in 0.53 s"] == palette.second
+    assert colours["Flow of A: displacement in 0.53 s × 1"] == palette.flow
+    assert colours["Flow of B: displacement in 0.27 s × 1"] == palette.second
     assert FLOW not in colours
     assert "Source of A: moving" in colours
     hidden = ViewSettings(layers=frozenset(LAYERS) - {"Flow"})
@@ -84,13 +90,21 @@ def test_a_second_flow_is_said_where_it_is_drawn(pair):
 
 def test_the_picked_cluster_and_clusters_beyond_the_first_few_are_said(pair):
     picked = pair.flow.clusters[1]
-    assert f"Picked: cluster {picked.index}" in [
-        entry.text for entry in legend(pair, ViewSettings(), 0.3, picked=picked).entries
-    ]
+    drawn = legend(pair, ViewSettings(), 0.3, picked=picked).entries
+    said, palette = {entry.text: entry.colour for entry in drawn}, ViewSettings().palette
+    assert said[f"Picked: cluster {picked.index}"] == palette.picked
+    assert said["Target: picked"] == palette.target
+    assert palette.target != said["Target: others"]
+    assert palette.source != said["Source: moving"]
     several = np.arange(len(pair.flow.label)) % 9
     flow = replace(pair.flow, cluster=several, label=np.full(len(several), 2))
     entries = legend(replace(pair, flow=flow), ViewSettings(arrow_colours=BY_CLUSTER), 0.3).entries
-    assert "Flow: 3 more clusters" in [entry.text for entry in entries]
+    assert "Flow × 1: 3 more clusters" in [entry.text for entry in entries]
+
+
+def test_what_belongs_together_stands_in_one_row(pair):
+    rows = html(legend(pair, ViewSettings(), 0.3)).count("flex-wrap")
+    assert rows == len({"Source", "Target", "Flow", "Truth"})
 
 
 def test_nothing_drawn_needs_no_legend():

@@ -11,6 +11,6 @@ from app.scene.palettes import PALETTES, palette
 def test_a_ramp_contains_no_other_layers_colour(name: str, dark: bool):
     colours = palette(name, dark)
     ramp = colours.along_ramp(np.linspace(0, 1, 50)).astype(float)
-    for layer in ("source", "target", "truth", "ghost", "picked"):
+    for layer in ("source", "target", "truth", "true_object", "picked"):
         apart = np.linalg.norm(ramp - np.array(getattr(colours, layer)), axis=1).min()
         assert apart > 45, f"{layer} is in the ramp"

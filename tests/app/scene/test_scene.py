@@ -230,3 +230,38 @@ def test_the_label_of_a_picked_cluster_stays_in_view(scene, client, pair):
     far = Camera((0.0, -9.0, 0.0), tuple(points.mean(axis=0).tolist()), 0.7)
     scene.set_camera(far)
     assert np.linalg.norm(label.position - seen) > 0.1
+
+
+def test_a_huge_box_and_a_label_above_the_picture_do_not_stay_there(scene, client, pair):
+    wall = next(c for c in pair.flow.clusters if c.label != Label.MOVING)
+    points = pair.source.points[wall.source]
+    middle, near = points.mean(axis=0), np.array([0.0, -0.08, 0.0])
+    scene.mark(pair, wall)
+    scene.set_camera(Camera.of(middle + 40 * near, middle, 0.7))
+    box, label = (client.node(f"{FIXED}/picked/{name}") for name in ("box", "label"))
+    assert box.visible
+    scene.set_camera(Camera.of(middle + near, middle, 0.7))
+    assert not box.visible
+    up = np.array([0.0, 0.0, 1.0])
+    assert scene.camera().sees(np.array([label.position]), up, 1.0).all()
+
+
+def test_nothing_is_dimmed_until_something_moves(client, pair):
+    scene = Scene(client, ViewSettings())
+    scene.open(fake_recording())
+    still = replace(pair, flow=replace(pair.flow, label=np.full(len(pair.flow.label), 1)))
+    scene.show(still)
+    assert colours(client, STATIC_TARGET_NODE) == [list(COLOURS.target)]
+    assert "Target" in [entry.text for entry in scene.legend.entries]
+    scene.show(pair)
+    assert colours(client, STATIC_TARGET_NODE) == faint(COLOURS.target)
+    scene.show(still)  # played on, it must not flash up
+    assert colours(client, STATIC_TARGET_NODE) == faint(COLOURS.target)
+
+
+def test_an_empty_cloud_sends_no_empty_list_of_colours(client, pair):
+    scene = Scene(client, ViewSettings())
+    scene.open(fake_recording())
+    scene.show(replace(pair, source=None, flow=None))
+    assert client.node(SOURCE_NODE).colors.size == 3
+    assert len(client.node(SOURCE_NODE).points) == 0

@@ -114,7 +114,7 @@ def test_a_video_of_the_range_is_made_in_the_background(session, client, monkeyp
     client.change("Views", "From above")
     client.press_option("Video", "GIF")
     until(lambda: client.downloads)
-    assert client.downloads == [("a.gif", b"GIF89a")]
+    assert client.downloads == [("a_frames_0000_0039.gif", b"GIF89a")]
     assert made == [(list(range(40)), "gif", 1.0, ("From above",))]
 
 

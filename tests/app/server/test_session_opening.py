@@ -17,10 +17,14 @@ from tests.app.fake_recordings import fake_recording
 from tests.app.waiting import until
 
 
-def test_a_bad_file_is_a_notification_and_what_was_shown_stays(session, client):
+def test_a_bad_file_is_told_in_a_card_and_what_was_shown_stays(session, client):
     before = points(client, "target")
     client.choose("bad")
-    until(lambda: any("bad.mcap is no recording." in n for n in client.notifications))
+    until(lambda: client.shown("failure.show"))
+    title, reason, advice = client.shown("failure.show")
+    assert title == "bad cannot be opened"
+    assert reason == "It is no recording."
+    assert advice.startswith("a stays open.\nWhat the file holds: tofscope info /")
     until(lambda: client.recording() == "a")
     assert np.array_equal(points(client, "target"), before)
     client.choose("b")
@@ -92,8 +96,11 @@ def test_of_several_bad_recordings_the_first_is_told_and_the_others_are_counted(
 
     library = Library([shared.library.paths[0]], opener)
     session = Session(client, replace(shared, library=library))
-    until(lambda: client.notifications)
-    assert client.notifications == ["a.mcap is no recording. 2 more could not be opened."]
+    until(lambda: client.shown("failure.show"))
+    title, reason, advice = client.shown("failure.show")
+    assert title == "a cannot be opened"
+    assert reason == "a.mcap is no recording. 2 more could not be opened."
+    assert advice.startswith("No recording is open.\n")
     until(lambda: "No recording is open." in client.text())
     session.close()
     session.join(10)

@@ -15,7 +15,7 @@ from app.server.session import Session
 from app.session.links import SavedSession, from_token
 from estimator import Parameters
 from tests.app.drawn import shown_frame
-from tests.app.fake_client import FakeClient
+from tests.app.fake_client import FakeClient, FakeStorage
 from tests.app.waiting import until
 
 
@@ -128,6 +128,31 @@ def test_a_link_leads_to_recording_frame_camera_and_parameters(client, shared, r
         until(lambda: shown_frame(again) == 31)
         session.close()
         session.join(10)
+
+
+class SlowStorage(FakeStorage):
+    """Storage of a page that answers after so many seconds."""
+
+    def __init__(self, seconds):
+        super().__init__()
+        self.seconds = seconds
+
+    def get_item(self, key, timeout=None):
+        if timeout is not None and timeout < self.seconds:
+            raise TimeoutError
+        return super().get_item(key, timeout)
+
+
+def test_a_busy_page_is_waited_for_and_a_silent_one_is_told(shared, runs):
+    token = SavedSession("b", 31, Parameters(n=5, delta=0.01)).token()
+    with FakeClient.on_a_server(SlowStorage(30)) as busy:
+        arrive(busy, shared, token)
+        assert (busy.recording(), shown_frame(busy)) == ("b", 31)
+        assert not busy.notifications
+    with FakeClient.on_a_server(SlowStorage(1e6)) as silent:
+        arrive(silent, shared, token)
+        assert silent.recording() == "a"
+        assert any("reload it to try again" in said for said in silent.notifications)
 
 
 def test_a_link_leads_to_the_whole_comparison_the_view_and_the_picked_cluster(client, shared, runs):

@@ -110,6 +110,19 @@ def test_another_recording_lets_go_of_everything(eye):
     assert (found.pinned, found.selected) == (None, None)
 
 
+def test_a_reload_comes_back_to_the_pinned_zone_and_the_selected_sensor(eye):
+    eye.inspection.start_from(0, Zone(TARGET, 0, 0, 3))
+    other = fake_opened()
+    eye.inspection.follow(other, ESTIMATES.estimated(other, 20, Parameters()), 4.0, SETTINGS)
+    assert eye.inspection.pinned == Zone(TARGET, 0, 0, 3)
+    assert eye.inspection.inspected.selected == 0
+    eye.inspection.start_from(10**5, Zone(TARGET, 0, 900, 3))
+    again = fake_opened()
+    eye.inspection.follow(again, ESTIMATES.estimated(again, 20, Parameters()), 4.0, SETTINGS)
+    assert eye.inspection.pinned is None
+    assert eye.inspection.inspected.selected is None
+
+
 def test_nothing_can_be_looked_from_without_a_selected_sensor(eye):
     with pytest.raises(InputError, match="Select a sensor first"):
         eye.inspection.look_from_selected(None)
@@ -120,4 +133,5 @@ def test_only_points_that_are_drawn_answer():
     without = replace(SETTINGS, layers=frozenset({"Target"}), static_scene=HIDDEN)
     drawn = drawn_points(pair(), without)
     assert set(drawn) == {TARGET}
-    assert drawn[TARGET].sum() == 100
+    assert drawn[TARGET].shown.sum() == 100
+    assert drawn_points(pair(), SETTINGS)[SOURCE].clear.sum() == 100

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from app.analysis.comparison import A, B, Comparison
 from app.analysis.quantities import QUANTITIES
+from app.analysis.zones import SOURCE, TARGET, Zone
 from app.errors import InputError
 from app.scene.camera import Camera
 from app.scene.palettes import PALETTES
@@ -60,6 +61,15 @@ names = st.sampled_from(sorted(QUANTITIES))
         comparison=st.none() | comparisons,
         picked=st.none() | st.integers(0, 100),
         plotted_pair=st.none() | st.tuples(names, names),
+        selected=st.none() | st.integers(0, 100),
+        pinned=st.none()
+        | st.builds(
+            Zone,
+            side=st.sampled_from([SOURCE, TARGET]),
+            sensor=st.integers(0, 100),
+            row=st.integers(0, 63),
+            column=st.integers(0, 63),
+        ),
     )
 )
 def test_a_token_comes_back_as_the_same_session(saved):
@@ -76,6 +86,14 @@ def test_whether_the_page_is_dark_and_plays_is_everybodys_own():
 def test_a_link_holds_every_setting_that_is_not_personal():
     linked = {*LinkedView.model_fields} - {"hidden"} | {"layers"}
     assert not {field.name for field in fields(ViewSettings)} - linked - PERSONAL
+
+
+def test_the_roll_of_the_camera_goes_with_it():
+    camera = Camera((1.0, 2.0, 3.0), (4.0, 5.0, 6.0), 0.7)
+    rolled = SavedSession("a", 3, Parameters(), camera, up=(0.6, 0.0, 0.8))
+    assert from_token(rolled.token()) == rolled
+    upright = SavedSession("a", 3, Parameters(), camera, up=(0.0, 0.0, 1.0))
+    assert from_token(upright.token()).up is None
 
 
 def test_links_of_before_there_was_a_comparison_in_them_still_open():

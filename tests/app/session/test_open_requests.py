@@ -4,8 +4,8 @@ from typing import Any
 import pytest
 
 from app.analysis.library import Entry
-from app.errors import InputError
 from app.session.open_requests import OpenRequests
+from app.session.outbox import OpeningFailed
 from recordings import RecordingError
 
 ENTRIES = [Entry(label, Path(f"/nowhere/{label}.mcap")) for label in ("a", "bad", "worse", "odd")]
@@ -16,7 +16,7 @@ class Library:
         if entry.label == "odd":
             raise RuntimeError("odd")
         if entry.label != "a":
-            raise RecordingError(f"{entry.label} is no recording.")
+            raise RecordingError(f"{entry.path} is no recording.")
         return entry
 
 
@@ -31,21 +31,22 @@ def test_they_are_tried_in_their_order_until_one_opens():
     wanted = opening("bad", "a", "worse")
     assert wanted.label == "bad"
     assert wanted.try_next() is None
-    wanted.raise_failure()  # there is another to try
+    assert wanted.take_failure() is None  # there is another to try
     assert wanted.label == "a"
     assert wanted.try_next() == ENTRIES[0]
     assert wanted.label is None
-    with pytest.raises(InputError, match=r"^bad is no recording\.$"):
-        wanted.raise_failure()
-    wanted.raise_failure()  # once
+    assert wanted.take_failure() == OpeningFailed("bad", "It is no recording.", ENTRIES[1].path)
+    assert wanted.take_failure() is None  # once
 
 
 def test_where_none_opens_the_first_is_told_and_the_others_are_counted():
     wanted = opening("bad", "worse")
     assert wanted.try_next() is None
     assert wanted.try_next() is None
-    with pytest.raises(InputError, match=r"^bad is no recording\. 1 more could not"):
-        wanted.raise_failure()
+    failed = wanted.take_failure()
+    assert failed is not None
+    assert failed.label == "bad"
+    assert failed.reason == "It is no recording. 1 more could not be opened."
 
 
 def test_only_what_is_listed_is_tried():

@@ -64,23 +64,33 @@ def test_ends_are_in_the_range():
         assert edited.corrections == {}
 
 
-def test_what_was_said_stays_until_that_parameter_is_entered_anew():
+def test_what_was_said_stays_until_anything_is_entered_anew():
     edited = tuning()
     edited.enter({"gamma": 9.0}, GAMMA, now=0.0)
     edited.enter({"gamma": 1.0}, GAMMA, now=1.0)  # the browser's, once the field is left
-    edited.enter({"delta": 0.2}, {}, now=2.0)
     assert edited.corrections == {"gamma": SAID}
-    edited.enter({"gamma": 0.6}, GAMMA, now=3.0)
+    edited.enter({"delta": 0.2}, {}, now=2.0)
     assert edited.corrections == {}
 
 
-def test_the_last_correction_is_at_the_end():
+def test_corrections_are_counted_also_equal_ones():
     edited = tuning()
-    ranges = {**GAMMA, "n": (1, 20)}
-    for name, value in (("gamma", 9.0), ("n", 0), ("gamma", 8.0)):
-        edited.enter({name: value}, ranges, now=0.0)
-    assert [*edited.corrections] == ["n", "gamma"]
-    assert edited.corrections["gamma"] == "γ goes from 0 to 1: 8 became 1."
+    for value in (9.0, 9.0, 0.5):
+        edited.enter({"gamma": value}, GAMMA, now=0.0)
+    assert edited.corrected == 2
+
+
+def test_what_is_entered_while_a_slider_is_pressed_is_undone_as_one():
+    edited = tuning()
+    for begin in (0.0, 0.5):  # two presses, the second right after the first
+        edited.hold(True)
+        edited.enter({"gamma": 0.4 + begin}, GAMMA, now=begin)
+        edited.enter({"gamma": 0.5 + begin}, GAMMA, now=begin + 30.0)
+        edited.hold(False)
+    edited.undo(1)
+    assert edited.parameters.gamma == 0.5
+    edited.undo(1)
+    assert edited.parameters == tuning().parameters
 
 
 @pytest.mark.parametrize("value", ["x", None, float("nan"), (1, 2)])

@@ -1,0 +1,27 @@
+// Why nothing is seen to move, above the legend, and what may be done about it.
+window.tofscope ??= {};
+{
+  const tofscope = window.tofscope;
+  const note = document.getElementById("tofscope-note") ?? document.createElement("div");
+  note.id = "tofscope-note";
+  note.hidden = true;
+  document.body.append(note);
+
+  tofscope.note = {
+    // `actions` are [text, hint, kind of event, its data].
+    show({text, actions}) {
+      note.hidden = !text;
+      note.textContent = text;
+      const buttons = document.createElement("div");
+      buttons.className = "buttons";
+      note.append(buttons);
+      for (const [label, hint, kind, data] of actions) {
+        const button = document.createElement("button");
+        button.textContent = label;
+        button.title = hint;
+        button.addEventListener("click", () => tofscope.tell(kind, data));
+        buttons.append(button);
+      }
+    },
+  };
+}

@@ -1,0 +1,88 @@
+"""Note in the scene: why nothing moves there, and what may be done about it."""
+
+from dataclasses import dataclass
+
+from app.analysis.few_points import FEW_POINTS, for_few_points, has_too_few_points
+from app.browser.assets import call, run_asset
+from app.browser.page_events import NoContent
+from app.panels.panel import Panel, PanelContext
+from app.panels.status import note_on
+from app.panels.view import SetView
+from app.scene.drawn_clouds import something_moves
+from app.scene.views import FIT
+from app.session.command import LatestWins
+from app.session.snapshot import Snapshot
+from app.session.workbench import Workbench
+from estimator import PARAMETER_INFO
+
+Action = tuple[str, str, str, dict[str, int]]
+"""Text of a button, its hint, and kind and data of the event that it sends."""
+
+
+@dataclass(frozen=True)
+class TryFewPoints(LatestWins):
+    """Set the parameters that suit few points, as one change."""
+
+    def apply(self, workbench: Workbench) -> None:
+        """Set them; undo takes them back."""
+        workbench.tuning.set(for_few_points(workbench.tuning.parameters))
+
+
+class SceneNotePanel(Panel):
+    """Says above the legend why no arrow is drawn, or that what is drawn is out of the picture."""
+
+    def __init__(self, context: PanelContext) -> None:
+        self._client = context.client
+        self._shown: dict[str, object] = {}
+        run_asset(self._client, "scene_note.css")
+        run_asset(self._client, "scene_note.js")
+        context.events.on("fit_view", NoContent, lambda _: context.post(SetView(FIT)))
+        context.events.on("try_few_points", NoContent, lambda _: context.post(TryFewPoints()))
+
+    def show(self, snapshot: Snapshot) -> None:
+        """Show the note on the current pair, or none where something moves."""
+        content = _content(snapshot)
+        if content != self._shown:
+            self._shown = content
+            call(self._client, "note.show", content)
+
+
+def _content(snapshot: Snapshot) -> dict[str, object]:
+    pair, parameters = snapshot.pair, snapshot.parameters
+    moves = pair is not None and something_moves(pair)
+    if pair is not None and snapshot.out_of_picture and not snapshot.playing:
+        what = "What moves is" if moves else "All points are"
+        show: Action = ("Fit what moves" if moves else "Fit the points", "Key F", "fit_view", {})
+        return {"text": f"{what} outside of the picture.", "actions": [show]}
+    if pair is None or moves:
+        return {"text": "", "actions": []}
+    actions: list[Action] = []
+    if has_too_few_points(pair, parameters):
+        actions.append(("Try settings for few points", _FEW_HINT, "try_few_points", {}))
+    if not snapshot.playing:
+        actions += _to_motion(snapshot)
+    return {"text": note_on(pair, parameters), "actions": actions}
+
+
+def _to_motion(snapshot: Snapshot) -> list[Action]:
+    """Button that leads to the next motion, or back to the last one."""
+    starts = [first for first, _ in snapshot.timeline.moving if first != snapshot.frame]
+    if any(first > snapshot.frame for first in starts):
+        return [("To the next motion", "Key M", "motion", {"direction": 1})]
+    if starts:
+        return [("Back to the last motion", "Key Shift+M", "motion", {"direction": -1})]
+    return []
+
+
+def _entry(name: str, value: float | bool) -> str:
+    info = PARAMETER_INFO[name]
+    title = info.symbol or name.replace("_", " ")
+    if isinstance(value, bool):
+        return title
+    return f"{title} {value:g}{f' {info.unit}' if info.unit and info.kind is float else ''}"
+
+
+_FEW_HINT = (
+    f"{', '.join(_entry(name, value) for name, value in FEW_POINTS.items())}: chosen on flights "
+    "with one real sensor of 8 x 8 zones. Undo takes them back."
+)
