@@ -165,8 +165,10 @@ def _drawn_for(workbench: Workbench, choice: FigureChoice) -> Iterator[None]:
     """Context in which the scene is drawn as a choice of background wants it."""
     before = workbench.settings
     wanted = _settings(before, choice)
-    workbench.change_view({"dark": wanted.dark, "behind": wanted.behind})
+    # The person has chosen the picture's background, and not whether the page is dark.
+    follows = {"follows_system": before.follows_system}
+    workbench.change_view({"dark": wanted.dark, "behind": wanted.behind, **follows})
     try:
         yield
     finally:
-        workbench.change_view({"dark": before.dark, "behind": before.behind})
+        workbench.change_view({"dark": before.dark, "behind": before.behind, **follows})

@@ -138,7 +138,9 @@ class Tab:
     def open(self, scenario: str) -> None:
         """Choose a sample and wait until its first frame is shown."""
         self.choose(scenario)
-        self.until(lambda: self.has_text(f"Simulated: {scenario}"))
+        # Told after the timeline: until then it may be at a frame of the recording before.
+        corner = self.page.locator("#tofscope-corner")
+        self.until(lambda: f"{scenario}_" in corner.inner_text())
         self.until(self._at_rest)
 
     def _at_rest(self) -> bool:

@@ -24,6 +24,9 @@ def test_a_screenshot_is_named_after_recording_and_frame(session, client):
     name, content = client.downloads[0]
     assert name == "a_frame_0024.png"
     assert content.startswith(b"\x89PNG")
+    # The page is dark as the system is, afterwards, too.
+    client.tell("system", {"dark": True})
+    until(lambda: client.control("Dark").value)
 
 
 def rendered(client, asked):
