@@ -90,9 +90,9 @@ if (!window.tofscope.answers) {
       // HTML of ours: why its cluster moves or does not.
       if (answer.story) element("div", "tofscope-answer-story", card).innerHTML = answer.story;
       const buttons = element("div", "tofscope-answer-buttons", card);
-      const view = element("button", "", buttons, "From this sensor");
+      const view = element("button", "tofscope-small", buttons, "From this sensor");
       view.addEventListener("click", () => tofscope.tell("look_from_sensor", {}));
-      const close = element("button", "", buttons, "Let go");
+      const close = element("button", "tofscope-small", buttons, "Let go");
       close.addEventListener("click", () => tofscope.tell("let_go", {}));
     },
   };

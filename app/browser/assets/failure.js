@@ -2,23 +2,20 @@
 // another recording is opened. The recording before stays open behind it.
 window.tofscope ??= {};
 {
-  const {tofscope} = window, ID = "tofscope-failure";
+  const {tofscope} = window, {element} = tofscope, ID = "tofscope-failure";
   document.getElementById(ID)?.remove();  // of before a lost connection
-  const card = document.createElement("div");
+  const card = element("div", "tofscope-card");
   card.id = ID;
-  card.className = "tofscope-card";
   card.setAttribute("role", "alertdialog");
   card.setAttribute("aria-labelledby", `${ID}-title`);
   card.hidden = true;
-  const add = (tag, parent = card) => parent.appendChild(document.createElement(tag));
-  const title = add("h2"), reason = add("p"), advice = add("p"), foot = add("footer");
+  const title = element("h2", "", card), reason = element("p", "", card);
+  const advice = element("p", "faint", card), foot = element("footer", "", card);
   title.id = `${ID}-title`;
-  advice.className = "faint";
   const close = () => { card.hidden = true; };
   const button = (text, hint, action) => {
-    const made = add("button", foot);
+    const made = element("button", "", foot, text);
     made.type = "button";
-    made.textContent = text;
     made.title = hint;
     made.addEventListener("click", action);
   };

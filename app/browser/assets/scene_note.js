@@ -1,7 +1,7 @@
 // Why nothing is seen to move, above the legend, and what may be done about it.
 window.tofscope ??= {};
 {
-  const tofscope = window.tofscope;
+  const {tofscope} = window, {element} = tofscope;
   const note = document.getElementById("tofscope-note") ?? document.createElement("div");
   note.id = "tofscope-note";
   note.hidden = true;
@@ -12,15 +12,11 @@ window.tofscope ??= {};
     show({text, actions}) {
       note.hidden = !text;
       note.textContent = text;
-      const buttons = document.createElement("div");
-      buttons.className = "buttons";
-      note.append(buttons);
+      const buttons = element("div", "buttons", note);
       for (const [label, hint, kind, data] of actions) {
-        const button = document.createElement("button");
-        button.textContent = label;
+        const button = element("button", "tofscope-small", buttons, label);
         button.title = hint;
         button.addEventListener("click", () => tofscope.tell(kind, data));
-        buttons.append(button);
       }
     },
   };
