@@ -12,12 +12,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from app.scene.clouds_view import STATIC_TARGET_NODE
+from app.scene.clouds_view import STATIC_TARGET_NODE, TARGET_NODE
 from benchmarks.serving import Served, machine, serving, wait_until, write_long_recording
 from tests.app.wire_client import WireClient
 
 _SETTLE = 3.0  # seconds after opening, in which plots begin to be filled
 _FRAMES = 10_000
+_CLOUDS = (TARGET_NODE, STATIC_TARGET_NODE)  # without a flow the points are all in the first
 _SHOWN_FRAME = re.compile(r"window\.tofscope\.timeline\.frame\((\d+)\);")
 
 
@@ -27,13 +28,16 @@ class _Frames:
     def __init__(self) -> None:
         self.clouds: list[float] = []
         self.numbers: list[int] = []
+        self._drawn = False  # the frame whose number comes next
 
     def listen(self, now: float, message: dict[str, Any]) -> None:
-        if message["type"] == "SceneNodeUpdateMessage" and message["name"] == STATIC_TARGET_NODE:
-            if "points" in message["updates"]:
+        if message["type"] == "SceneNodeUpdateMessage" and message["name"] in _CLOUDS:
+            if "points" in message["updates"] and not self._drawn:
                 self.clouds.append(now)
+                self._drawn = True
         elif found := _SHOWN_FRAME.fullmatch(str(message.get("source"))):
             self.numbers.append(int(found[1]))
+            self._drawn = False
 
     def forget(self) -> None:
         self.clouds.clear()

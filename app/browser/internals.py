@@ -136,6 +136,23 @@ if (!window.tofscopeKeeps) {{
 it. viser shows them at once: they take the place of what is selected or half typed there, and the
 next keys go into another number than the one that was meant."""
 
+NO_FRAME_FOR_SCRIPTS = """
+if (!window.tofscopeScripts) {
+  window.tofscopeScripts = true;
+  const viewer = window.__viserMutable, render = viewer.requestRender;
+  const aside = ({type}) =>
+    type === "RunJavascriptMessage" || type.startsWith("Gui") && type !== "Gui3DMessage";
+  viewer.requestRender = () => {
+    const queue = viewer.messageQueue;
+    if (queue.length > 0 && viewer.getRenderRequestState === "ready" && queue.every(aside))
+      viewer.drainMessageQueue();
+    else render();
+  };
+}
+"""
+"""Script that runs our scripts without another image of the scene. viser applies messages for its
+panel at once, but a script only with the next image, which it draws for that."""
+
 
 def element_id(control: viser.GuiInputHandle[Any]) -> str:
     """Id of a control's element in the page, for scripts."""

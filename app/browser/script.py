@@ -7,6 +7,7 @@ import viser
 from app.browser.assets import call, run_asset
 from app.browser.internals import (
     KEEP_TYPED,
+    NO_FRAME_FOR_SCRIPTS,
     SCENE_CANVAS,
     SEND_AT_ONCE,
     SLIDER_OR_TAB,
@@ -39,12 +40,14 @@ _EDGE = f"""
 if (!window.tofscopeEdge) {{
   const canvas = document.querySelector("{SCENE_CANVAS}");
   const page = document.documentElement.style;
+  let known = "";
   const follow = () => {{
     const {{left, right, width, height}} = canvas.getBoundingClientRect();
-    page.setProperty("--scene-left", `${{left}}px`);
-    page.setProperty("--scene-right", `${{window.innerWidth - right}}px`);
-    page.setProperty("--scene-width", `${{width}}px`);
-    page.setProperty("--scene-height", `${{height}}px`);
+    const found = [left, window.innerWidth - right, width, height].map(pixels => `${{pixels}}px`);
+    if (String(found) === known) return;  // a change has the whole page styled anew
+    known = String(found);
+    ["left", "right", "width", "height"].forEach((side, index) =>
+      page.setProperty(`--scene-${{side}}`, found[index]));
   }};
   if (canvas) {{
     window.tofscopeEdge = new ResizeObserver(follow);
@@ -100,6 +103,11 @@ const link = `${location.origin}${location.pathname}?%s=%s`;
 const show = () => window.prompt("Copy this link:", link);
 if (navigator.clipboard) navigator.clipboard.writeText(link).catch(show); else show();
 """
+
+
+def set_up_scripts(client: viser.ClientHandle) -> None:
+    """Let scripts run without another image of the scene."""
+    run_script(client, NO_FRAME_FOR_SCRIPTS)
 
 
 def set_up_controls(client: viser.ClientHandle) -> None:

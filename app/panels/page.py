@@ -11,6 +11,7 @@ from app.browser.script import (
     set_up_controls,
     set_up_keys,
     set_up_scene_edge,
+    set_up_scripts,
     set_up_tabs,
     show_hints,
     window_width,
@@ -80,6 +81,7 @@ class Page:
         self._client = context.client
         self._opened: Opened | None = None
         self._title = ""
+        set_up_scripts(context.client)
         set_up_controls(context.client)
         set_up_keys(context.client)
         set_up_fields(context.client)

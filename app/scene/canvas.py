@@ -22,3 +22,7 @@ class Canvas(Protocol):
     def atomic(self) -> AbstractContextManager[Any]:
         """Context whose changes are drawn at once."""
         ...
+
+    def flush(self) -> None:
+        """Send what has been drawn at once, instead of with what follows in the next 17 ms."""
+        ...

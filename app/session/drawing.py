@@ -63,6 +63,7 @@ class Drawing:
                 self._framing.begin(found.pair)
             else:
                 self._framing.retry_first_view(found.pair)
+        self._client.flush()  # the panels follow by themselves
         self._drawn = wanted
         if found.problem is not None:
             raise found.problem

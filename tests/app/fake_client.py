@@ -79,7 +79,7 @@ class FakeClient:
         server._websock_server.queue_message = keep
 
     def _run(self, script: str) -> None:
-        """Carry out the scripts that store a value or set the legend, and note calls of ours."""
+        """Carry out the scripts that store a value or write the legend, and note calls of ours."""
         self._calls.note(script)
         if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
             self.local_storage.set_item(*kept.groups())
@@ -91,7 +91,7 @@ class FakeClient:
             elif 'query.get("link")' in script and self.link is not None:
                 self.local_storage.set_item(key[1], self.link)
                 self.link = None
-        if legend := re.search(r"legend.innerHTML = (.*);", script):
+        if legend := re.search(r"tofscope.legend.show\((.*)\);", script):
             self.legend = json.loads(legend[1])
 
     @classmethod
@@ -106,6 +106,9 @@ class FakeClient:
     @contextmanager
     def atomic(self):
         yield
+
+    def flush(self):
+        pass
 
     def add_notification(self, title, body, **_):
         self.notifications.append(body)

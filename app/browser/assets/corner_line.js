@@ -3,7 +3,6 @@ window.tofscope ??= {};
 {
   const {tofscope} = window, {element} = tofscope;
 
-  const page = document.documentElement.style;
   const corner = document.getElementById("tofscope-corner") ?? document.createElement("div");
   corner.id = "tofscope-corner";
   corner.hidden = true;  // until there is something to say
@@ -14,28 +13,37 @@ window.tofscope ??= {};
   const length = element("span", "length", scale);
   const line = element("div", "line", corner);
 
+  // What stays the same is left alone, since a change has the page laid out anew.
+  let written = [];
+  const write = parts => {
+    if (parts.length !== written.length) {
+      line.replaceChildren();
+      parts.forEach((_, index) => {
+        if (index > 0) line.append(" ");
+        const whole = element("span", "part", line);
+        if (index > 0) element("span", "dot", whole, "·");
+        whole.append("");
+      });
+    }
+    parts.forEach((part, index) => {
+      if (part !== written[index]) line.children[index].lastChild.data = index > 0 ? ` ${part}` : part;
+    });
+    written = parts;
+  };
+
   // The legend stands above, however many lines there are.
-  const lift = () => page.setProperty("--corner-height", `${corner.offsetHeight}px`);
   tofscope.cornerSize?.disconnect();
-  tofscope.cornerSize = new ResizeObserver(lift);
-  tofscope.cornerSize.observe(corner);
+  tofscope.cornerSize = tofscope.watchHeight(corner, "--corner-height");
 
   tofscope.corner = {
     // `share` is the bar's length as a part of the scene's height.
     show({parts, text, share, dark}) {
       corner.classList.toggle("dark", dark);
       corner.hidden = parts.length === 0;
-      line.replaceChildren();
-      parts.forEach((part, index) => {
-        if (index > 0) line.append(" ");
-        const whole = element("span", "part", line);
-        if (index > 0) element("span", "dot", whole, "·");
-        whole.append(index > 0 ? ` ${part}` : part);
-      });
+      write(parts);
       scale.hidden = text === "";
-      length.textContent = text;
+      if (length.textContent !== text) length.textContent = text;
       bar.style.width = `calc(${share} * var(--scene-height, 100vh))`;
-      lift();
     },
   };
 }

@@ -12,6 +12,43 @@ window.tofscope ??= {};
     return made;
   };
 
+  // Keeps the height of an element in a property of the page, for what stands above or below.
+  tofscope.watchHeight = (element, property) => {
+    const page = document.documentElement.style;
+    const observer = new ResizeObserver(() =>
+      page.setProperty(property, `${element.offsetHeight}px`));
+    observer.observe(element);
+    return observer;
+  };
+
+  // Lets what a person has set stand until the session knows of it, which still says older values
+  // meanwhile: `told` notes what is set, and `heard` applies what the session says.
+  const PATIENCE = 1000;  // milliseconds
+  tofscope.untilKnown = apply => {
+    let awaited = null, last = null, timer = null;
+    const forget = () => {
+      clearTimeout(timer);
+      awaited = last = null;
+    };
+    const settle = () => {
+      const value = last;
+      forget();
+      if (value !== null) apply(value);
+    };
+    return {
+      forget,
+      told(value) {
+        forget();
+        awaited = JSON.stringify(value);
+        timer = setTimeout(settle, PATIENCE);
+      },
+      heard(value) {
+        last = value;
+        if (awaited === null || awaited === JSON.stringify(value)) settle();
+      },
+    };
+  };
+
   // Bytes of a text in base64; a typed array over their `buffer` reads other numbers.
   tofscope.bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0));
 }

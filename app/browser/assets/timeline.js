@@ -63,9 +63,21 @@
   const clip = frame => Math.min(Math.max(frame, 0), last());
   const tracks = tofscope.timelineTracks(find(".tracks"), state);
   const marks = tofscope.timelineMarks(element, state, tracks.place);
+  const frames = tofscope.untilKnown(frame => {
+    if (state.held === "playhead") return;
+    state.frame = clip(frame);
+    tracks.follow(state.frame);
+    show();
+  });
+  const ranges = tofscope.untilKnown(range => {
+    if (state.held === "first" || state.held === "last") return;
+    Object.assign(state, range);
+    show();
+  });
 
   const seek = frame => {
     state.frame = clip(frame);
+    if (!state.playing) frames.told(state.frame);
     tofscope.tellLatest("seek", {frame: state.frame});
     show();
   };
@@ -103,6 +115,7 @@
   tracks.onHold = held => { state.held = held; };
   tracks.onRange = range => {
     Object.assign(state, range);
+    ranges.told(range);
     tofscope.tellLatest("playback", range, 60);
     show();
   };
@@ -158,21 +171,20 @@
       find(".speed").value = String(state.speed);
       element.classList.remove("empty");
       marks.close();
+      frames.forget();
+      ranges.forget();
       tracks.whole();
       show();
     },
     // The current frame, unless a person holds the playhead.
     frame: frame => {
       element.dataset.frame = frame;  // that is drawn; a person may be ahead of it
-      if (state.held === "playhead") return;
-      state.frame = clip(frame);
-      tracks.follow(state.frame);
-      show();
+      frames.heard(frame);
     },
-    // Speed, loop and range, unless a person holds an end of the range.
+    // Speed, loop and range, this unless a person holds an end of it.
     playback: ({first, last: end, ...others}) => {
       Object.assign(state, others);
-      if (state.held !== "first" && state.held !== "last") Object.assign(state, {first, last: end});
+      ranges.heard({first, last: end});
       show();
     },
     events: events => { Object.assign(state, events); show(); },  // moving, gaps, empty

@@ -126,6 +126,17 @@ def test_values_that_arrive_can_be_held_back():
     )
 
 
+def test_scripts_can_be_kept_from_drawing_the_scene():
+    names = ("messageQueue", "drainMessageQueue", "requestRender", "getRenderRequestState")
+    assert all(name in internals.NO_FRAME_FOR_SCRIPTS for name in names)
+    in_page(
+        *names,
+        r"getRenderRequestState===`ready`",
+        r"`Gui3DMessage`",
+        why="the scene is drawn for each of our scripts (NO_FRAME_FOR_SCRIPTS)",
+    )
+
+
 def test_the_title_of_the_page_can_be_replaced():
     assert page().count(internals.PAGE_TITLE) == 1, (
         f"viser's page has another title: offline pages keep it (PAGE_TITLE of {INTERNALS})"
