@@ -28,7 +28,7 @@ class _Frames:
     def __init__(self) -> None:
         self.clouds: list[float] = []
         self.numbers: list[int] = []
-        self._drawn = False  # the frame whose number comes next
+        self._drawn = False  # whether a cloud came since the last number
 
     def listen(self, now: float, message: dict[str, Any]) -> None:
         if message["type"] == "SceneNodeUpdateMessage" and message["name"] in _CLOUDS:
@@ -42,6 +42,7 @@ class _Frames:
     def forget(self) -> None:
         self.clouds.clear()
         self.numbers.clear()
+        self._drawn = False
 
 
 def _play(served: Served, client: WireClient, frames: _Frames, speed: float, seconds: float) -> str:

@@ -13,7 +13,7 @@ _AGE = 1.0  # seconds after which a timeline is rebuilt
 
 
 class LiveTimeline:
-    """Timeline of one recording at a time, rebuilt at most once a second.
+    """Timeline of one recording at a time, rebuilt at most once a second, and when all is known.
 
     Args:
         estimates: cache of a bounded number of frames.
@@ -24,6 +24,7 @@ class LiveTimeline:
         self._estimates = estimates
         self._surveys = surveys
         self._survey: Survey | None = None
+        self._complete = False
         self._last: tuple[tuple[Opened, Parameters], float, Timeline] | None = None
 
     def of(self, opened: Opened, parameters: Parameters) -> Timeline:
@@ -32,9 +33,13 @@ class LiveTimeline:
         fresh = self._last is None or self._last[0] != wanted
         if fresh:
             self._survey = None
-        if self._last is None or fresh or now > self._last[1] + _AGE:
-            # Held here, since the cache of surveys may drop it.
-            self._survey = self._survey or self._surveys.known(opened, parameters)
+        # Held here, since the cache of surveys may drop it.
+        self._survey = self._survey or self._surveys.known(opened, parameters)
+        complete = self._survey is not None and self._survey.complete
+        # At once after a survey's last numbers, since nothing may ask again.
+        ended = complete and not self._complete
+        if self._last is None or fresh or ended or now > self._last[1] + _AGE:
+            self._complete = complete
             self._last = (wanted, now, self._look(opened, parameters))
         return self._last[2]
 

@@ -144,8 +144,8 @@ if (!window.tofscopeScripts) {
     type === "RunJavascriptMessage" || type.startsWith("Gui") && type !== "Gui3DMessage";
   viewer.requestRender = () => {
     const queue = viewer.messageQueue;
-    if (queue.length > 0 && viewer.getRenderRequestState === "ready" && queue.every(aside))
-      viewer.drainMessageQueue();
+    const apply = viewer.getRenderRequestState === "ready" ? viewer.drainMessageQueue : null;
+    if (apply && queue.length > 0 && queue.every(aside)) apply();
     else render();
   };
 }

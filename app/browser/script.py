@@ -33,6 +33,8 @@ if (!window.tofscopeKeys) {{
 }}
 """
 
+_NARROW_SCENE = 340  # pixels; what lies over a scene of less would leave nothing of it to be seen
+
 # Docked panels shift the scene, on both sides. Its resize events report that at once, but not
 # always: a panel that goes to the other side, or comes back after a lost connection, leaves the
 # size as it was.
@@ -48,6 +50,7 @@ if (!window.tofscopeEdge) {{
     known = String(found);
     ["left", "right", "width", "height"].forEach((side, index) =>
       page.setProperty(`--scene-${{side}}`, found[index]));
+    document.documentElement.toggleAttribute("data-narrow-scene", width < {_NARROW_SCENE});
   }};
   if (canvas) {{
     window.tofscopeEdge = new ResizeObserver(follow);
@@ -124,8 +127,9 @@ def set_up_keys(client: viser.ClientHandle) -> None:
 
 
 def set_up_tabs(client: viser.ClientHandle) -> None:
-    """Open again, after a reload, the tabs that were open."""
+    """Open again, after a reload, the tabs that were open; give them the height that is left."""
     run_asset(client, "tabs.js")
+    run_asset(client, "panel_height.js")
 
 
 def show_hints(client: viser.ClientHandle) -> None:

@@ -14,6 +14,7 @@ from app.scene.drawn_flow import moving_ends
 from app.scene.lens import FOV, WIDE_FOV
 from app.scene.scene_root import upright
 from app.scene.shapes import robot_shape
+from app.scene.truth import object_corners
 from app.scene.views import ABOVE, FRONT, SENSORS, SLANTED, Projection, named_view
 from recordings import Recording
 
@@ -51,7 +52,8 @@ def figure_camera(
     projection = Projection(WIDE_FOV if view == SENSORS else FOV, aspect)
     moving = [pair for pair in pairs if pair.anything_moves]
     middle = moving[len(moving) // 2] if moving else pairs[len(pairs) // 2]
-    placed = named_view(view, middle, R_drawing_fixed, projection)
+    objects = object_corners(recording.object_meshes, middle)
+    placed = named_view(view, middle, R_drawing_fixed, projection, objects=objects)
     camera = Camera.of(placed.position, placed.look_at, projection.fov)
     if view not in _FILLED or not moving:
         return camera

@@ -79,7 +79,7 @@ class HeadlessScene:
         except (RuntimeError, TimeoutError) as error:
             raise InputError(
                 f"Chromium gave no picture of {self._width} x {self._height} ({error}); "
-                "try a smaller size."
+                "try a smaller size, or again when the computer is less busy."
             ) from error
 
 

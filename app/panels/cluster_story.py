@@ -8,7 +8,7 @@ from app.scene.colours import css
 from app.scene.palettes import Palette
 from estimator import ClusterResult, IcpRound, Label, Parameters, StoryRow
 
-_SIX_ROWS = "calc(11.55em + 6px)"  # height of the cluster table's body
+_ROOM = "calc(12.6em + 6px)"  # of the cluster table: the half of a row says that it scrolls
 
 
 def fills(palette: Palette) -> dict[Label, str]:
@@ -50,7 +50,7 @@ def cluster_table(
         for cluster in clusters
     ]
     return framed(
-        f'<div style="max-height: {_SIX_ROWS}; overflow-y: auto">{table(head, rows)}</div>'
+        f'<div style="max-height: {_ROOM}; overflow-y: auto">{table(head, rows)}</div>'
         if rows
         else "No clusters were found in this pair."
     )
@@ -155,9 +155,13 @@ def _round_cells(
     count: int, turn: IcpRound, parameters: Parameters, *, removes: bool
 ) -> tuple[str, ...]:
     most = max(turn.source_size, turn.target_size)
+    sizes = f"{turn.source_size} / {turn.target_size}"
+    points = _with_margin(sizes, most - parameters.n_min, "+d")
+    if len(turn.inlier_source) == 0:
+        return str(count), points, "no pairs", number(None, ""), "none"
     return (
         str(count),
-        _with_margin(f"{turn.source_size} / {turn.target_size}", most - parameters.n_min, "+d"),
+        points,
         _with_margin(f"{turn.fitness:.2f}", turn.fitness - parameters.gamma, "+.2f"),
         _with_margin(
             f"{turn.mean_displacement:.3f} m", turn.mean_displacement - parameters.delta, "+.3f"

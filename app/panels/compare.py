@@ -141,7 +141,7 @@ class ComparePanel(Panel):
             show_value(self._both, comparison.both)
         self._switch.label = f"Switch to {other}"
         colour = css(snapshot.settings.palette.second)
-        mark = f' <span style="color: {colour}">■</span> The flow of B.'
+        mark = f' <span style="color: {colour}">■</span>&nbsp;The flow of B, over that of A.'
         legend = mark if comparison.both else ""
         self._state.content = framed(
             f"<b>{edited}</b> is shown, and what the parameters' controls change.{legend}"

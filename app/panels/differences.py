@@ -91,14 +91,33 @@ def difference_table(
 
 
 def verdict(whole: Mapping[str, Totals | None]) -> str:
-    """Sentence on which of A and B is better over the whole recording, "" until it is known.
+    """Sentences on which of A and B is better over the whole recording, "" until it is known.
 
     Args:
         whole: {A or B: its totals, None before there are any}.
     """
-    known = {side: of.numbers for side, of in whole.items() if of is not None and of.complete}
-    if len(known) < 2:
+    both = {side: of for side, of in whole.items() if of is not None and of.complete}
+    if len(both) < 2:
         return ""
+    known = {side: of.numbers for side, of in both.items()}
+    return f"{_on_errors(known, _over(both))}{_on_moving(known)}"
+
+
+def _over(both: Mapping[str, Totals]) -> str:
+    """What the errors are the means of."""
+    counting = {of.counting for of in both.values()}
+    return f"the {counting.pop()} pairs that count" if len(counting) == 1 else "the whole recording"
+
+
+def _on_moving(known: Mapping[str, Numbers]) -> str:
+    """Sentence on how many points each side finds moving, "" if as many; no error tells of it."""
+    of_a, of_b = (known[side]["moving"] for side in (A, B))
+    if of_a == of_b:
+        return ""
+    return f" In all pairs A finds {of_a:.0f} moving points, B {of_b:.0f}."
+
+
+def _on_errors(known: Mapping[str, Numbers], over: str) -> str:
     better: dict[str, list[str]] = {A: [], B: []}
     for name in PLOTTED:
         if side := _better(name, known):
@@ -106,15 +125,12 @@ def verdict(whole: Mapping[str, Totals | None]) -> str:
     if all(np.isnan(numbers[name]) for numbers in known.values() for name in PLOTTED):
         return "No pair counts, so no error says which is better."
     if not any(better.values()):
-        return "Over the whole recording A and B are equally good."
+        return f"Over {over} A and B are equally good."
     if all(better.values()):
-        return (
-            f"Over the whole recording <b>A is better in {_listed(better[A])}, "
-            f"B in {_listed(better[B])}</b>."
-        )
+        return f"Over {over} <b>A is better in {_listed(better[A])}, B in {_listed(better[B])}</b>."
     side = A if better[A] else B
     rest = "" if len(better[side]) == len(PLOTTED) else "; the rest is equal"
-    return f"Over the whole recording <b>{side} is better</b>, in {_listed(better[side])}{rest}."
+    return f"Over {over} <b>{side} is better</b>, in {_listed(better[side])}{rest}."
 
 
 def other_pairs(whole: Mapping[str, Totals | None]) -> str:

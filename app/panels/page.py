@@ -71,7 +71,7 @@ _OVER: _Panels = (
 """Outside viser's panels."""
 
 _LEFT_WIDTH = 320  # pixels
-_NARROW = 1260  # pixels; on pages up to this width the left panel starts folded
+_NARROW = 1340  # pixels; on pages up to this width the left panel starts folded
 
 
 class Page:

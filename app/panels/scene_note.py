@@ -2,7 +2,11 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from app.analysis.few_points import FEW_POINTS, for_few_points, has_too_few_points
+from app.analysis.pairs import Pair
 from app.browser.assets import call, run_asset
 from app.browser.page_events import NoContent
 from app.panels.panel import Panel, PanelContext
@@ -61,17 +65,41 @@ def _content(snapshot: Snapshot) -> dict[str, object]:
         actions.append(("Try settings for few points", _FEW_HINT, "try_few_points", {}))
     if not snapshot.playing:
         actions += _to_motion(snapshot)
-    return {"text": note_on(pair, parameters), "actions": actions}
+    return {"text": _why(snapshot, pair), "actions": actions}
+
+
+def _why(snapshot: Snapshot, pair: Pair) -> str:
+    """Why nothing moves in a pair, and whether none is found in the whole recording."""
+    survey, why = snapshot.survey, note_on(pair, snapshot.parameters)
+    if survey is None or not survey.complete or (survey.moving > 0).any():
+        return why
+    return f"{why} With these parameters no frame has any motion."
 
 
 def _to_motion(snapshot: Snapshot) -> list[Action]:
-    """Button that leads to the next motion, or back to the last one."""
-    starts = [first for first, _ in snapshot.timeline.moving if first != snapshot.frame]
-    if any(first > snapshot.frame for first in starts):
-        return [("To the next motion", "Key M", "motion", {"direction": 1})]
-    if starts:
-        return [("Back to the last motion", "Key Shift+M", "motion", {"direction": -1})]
+    """Button that leads to the next frame at which something moves, or back to the last one."""
+    frames = _moving_frames(snapshot)
+    later, earlier = frames[frames > snapshot.frame], frames[frames < snapshot.frame]
+    if len(later):
+        return [_go("To the next motion", int(later[0]))]
+    if len(earlier):
+        return [_go("Back to the last motion", int(earlier[-1]))]
     return []
+
+
+def _go(text: str, frame: int) -> Action:
+    return text, f"Frame {frame}", "seek", {"frame": frame}
+
+
+def _moving_frames(snapshot: Snapshot) -> NDArray[np.int64]:
+    """Frames at which something moves, by the estimates.
+
+    Until all frames are estimated, what is known of the recording counts.
+    """
+    survey = snapshot.survey
+    if survey is not None and survey.complete:
+        return np.flatnonzero(survey.moving > 0)
+    return np.array([first for first, _ in snapshot.timeline.moving], dtype=np.int64)
 
 
 def _entry(name: str, value: float | bool) -> str:

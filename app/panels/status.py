@@ -140,10 +140,10 @@ def _why_nothing_moves(pair: Pair, flow: SceneFlow, parameters: Parameters) -> s
     size = len(flow.label)
     if size == 0 or len(pair.target.points) == 0:
         empty = "source" if size == 0 else "target"
-        return f"Nothing moves: the {empty} is empty."
+        return f"No motion found: the {empty} is empty."
     uses = find_method(parameters.method).uses
     reason = next((text for name, text in _reasons(flow, parameters) if name in uses), "")
-    return f"Nothing moves: {reason}." if reason else "Nothing moves."
+    return f"No motion found: {reason}." if reason else "No motion found."
 
 
 def _reasons(flow: SceneFlow, parameters: Parameters) -> Iterator[tuple[str, str]]:

@@ -24,5 +24,5 @@ class Canvas(Protocol):
         ...
 
     def flush(self) -> None:
-        """Send what has been drawn at once, instead of with what follows in the next 17 ms."""
+        """Send what has been drawn now; otherwise it waits 17 ms for what may follow."""
         ...

@@ -9,7 +9,7 @@ TRUTH: Colour = (235, 125, 0)
 SENSOR: Colour = (205, 20, 30)
 FRUSTUM: Colour = (190, 110, 110)
 PICKED: Colour = (214, 0, 147)
-BRAND: Colour = (31, 99, 200)
+BRAND: Colour = (23, 72, 147)  # of which the page shows a lighter shade, with white text
 BRIGHT_BRAND: Colour = (90, 150, 245)
 """`BRAND` on a dark page."""
 

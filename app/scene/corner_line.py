@@ -60,7 +60,7 @@ def parameters_text(parameters: Parameters) -> str:
     """A method's parameters that have a slider, and all others that differ from their defaults."""
     values = values_of(parameters)
     infos = find_method(parameters.method).infos()
-    return " ".join(
+    return ", ".join(
         _entry(name, info, values[name])
         for name, info in infos.items()
         if info.slider or values[name] != info.default

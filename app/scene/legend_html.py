@@ -48,7 +48,7 @@ def _row(title: str, entries: Sequence[LegendEntry]) -> str:
 def _dot(colour: Colour) -> str:
     return (
         '<span style="width: 9px; height: 9px; border-radius: 50%; margin-right: 6px; flex: none; '
-        f'background: {css(colour)}"></span>'
+        f'background: {css(colour)}; box-shadow: 0 0 0 1px #8888"></span>'
     )
 
 

@@ -114,7 +114,7 @@ _PAPER_DARK = Palette(
     second=(185, 120, 255),
     picked=(255, 80, 190),
     truth=(255, 160, 40),
-    true_object=(236, 156, 66),
+    true_object=(190, 126, 58),
     frustum=(150, 90, 90),
     grid=_DARK_GRID,
     floor=(34, 37, 43),
@@ -144,7 +144,7 @@ _ALL = {
         flow=(40, 205, 155),
         second=(240, 228, 66),
         truth=(225, 140, 190),
-        true_object=(206, 130, 178),
+        true_object=(150, 100, 130),
         frustum=(130, 112, 100),
     ),
 }

@@ -106,9 +106,8 @@ class Scene:
         # From amid the points what moves would be a heap.
         amid = camera.fov > (FOV + WIDE_FOV) / 2
         before = None if amid else View(np.asarray(camera.position), np.asarray(camera.look_at))
-        return named_view(
-            name, pair, self._surroundings.R_drawing_fixed, projection, before
-        ), projection.fov
+        R, objects = self._surroundings.R_drawing_fixed, self._object.corners(pair)
+        return named_view(name, pair, R, projection, before, objects), projection.fov
 
     @property
     def legend(self) -> Legend:
@@ -131,7 +130,8 @@ class Scene:
 
         Args:
             camera: of the picture.
-            larger: factor on the size of points, for the picture instead of the page's window.
+            larger: factor on the size of points, for the picture instead of the page's window; text
+                is larger by it already.
             height: of the picture, pixels.
             detail: pixels of what is one pixel wide in a picture 720 pixels high.
         """
@@ -140,7 +140,7 @@ class Scene:
         self._surroundings.fit(camera)
         gaze = look_at - position
         self._size(lens, larger, detail * _REFERENCE_HEIGHT / height)
-        self._thicken(detail)
+        self._thicken(detail, detail / larger)
         try:
             eye, forward = self.in_fixed_frame(position), self.in_fixed_frame(gaze)
             # viser's renders ignore the camera's near plane.
@@ -150,7 +150,7 @@ class Scene:
             with self._clouds.clipped(eye, forward / np.linalg.norm(forward), lens.near, others):
                 yield
         finally:
-            self._thicken(1.0)
+            self._thicken(1.0, 1.0)
             if self._lens and before:
                 self._surroundings.fit(before)
                 self._fit(self._lens)
@@ -269,12 +269,12 @@ class Scene:
         if self._selection:
             self._selection.set_point_size(self._clouds.radius)
 
-    def _thicken(self, factor: float) -> None:
-        """Multiply line widths, which are in pixels."""
+    def _thicken(self, factor: float, text: float) -> None:
+        """Multiply line widths, which are in pixels, and the size of text."""
         if self._sensors:
             self._sensors.thicken(factor)
         if self._selection:
-            self._selection.thicken(factor)
+            self._selection.thicken(factor, text)
 
     def _show_clouds(self, pair: Pair) -> None:
         """Draw both clouds, what does not move as the settings say, without picked points."""

@@ -98,9 +98,10 @@ class SelectionView:
         self.points.colors = np.array(palette.picked, dtype=np.uint8)
         self._box.colors = np.array(palette.picked, dtype=np.uint8)
 
-    def thicken(self, factor: float) -> None:
-        """Multiply the line width of the box."""
+    def thicken(self, factor: float, text: float) -> None:
+        """Multiply the line width of the box, and the size of the label by `text`."""
         self._box.thickness = factor * _THICKNESS
+        self._label.font_screen_scale = text
 
     def set_point_size(self, metres: float) -> None:
         """Set the radius of the other points; picked ones are drawn larger."""

@@ -4,13 +4,14 @@ from collections.abc import Mapping
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from app.scene.node_poses import UNKNOWN, node_name, set_poses
 from app.scene.palettes import Palette
 from app.scene.scene_root import FIXED
 from app.scene.shapes import coarse
-from app.scene.truth import object_points
+from app.scene.truth import object_corners, object_points
 from recordings import ObjectMesh
 
 TRUE_OBJECT = f"{FIXED}/true_object"
@@ -31,6 +32,7 @@ class TrueObjectView:
         self._scene = scene
         self._colour = palette.true_object
         self._surfaces: dict[str, viser.MeshHandle] = {}
+        self._meshes: Mapping[str, ObjectMesh] = {}
         scene.add_frame(TRUE_OBJECT, show_axes=False)
         self.points = scene.add_point_cloud(
             _POINTS,
@@ -44,6 +46,7 @@ class TrueObjectView:
 
     def open(self, meshes: Mapping[str, ObjectMesh]) -> None:
         """Prepare for the objects {frame: surface} of another recording."""
+        self._meshes = meshes
         for surface in self._surfaces.values():
             surface.remove()
         self._surfaces = {
@@ -68,6 +71,10 @@ class TrueObjectView:
         known = any(bool(np.isfinite(pose).all()) for pose in poses)
         points = np.zeros((0, 3)) if known else object_points(pair)
         self.points.points = points.astype(np.float32)
+
+    def corners(self, pair: Pair) -> NDArray[np.float64]:
+        """Corners (8 M, 3) of boxes around the objects at frame k, in the fixed frame."""
+        return object_corners(self._meshes, pair)
 
     def paint(self, palette: Palette) -> None:
         """Apply a palette."""

@@ -1,10 +1,14 @@
-"""Geometry of the truth's arrow, and of the points that stand for the true object."""
+"""Geometry of the truth's arrow, of the true object, and of the points that stand for it."""
+
+from collections.abc import Mapping
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
 from estimator import truly_moves
+from recordings import ObjectMesh
 
 _ABOVE = 0.1  # height of the arrow above all moving points, metres
 
@@ -34,6 +38,29 @@ def object_points(pair: Pair) -> NDArray[np.float64]:
     displacement = pair.interval * pair.truth.points
     moving = truly_moves(pair.truth.points)
     return pair.source.points[moving] + displacement[moving]
+
+
+def object_corners(meshes: Mapping[str, ObjectMesh], pair: Pair) -> NDArray[np.float64]:
+    """Corners (8 M, 3) of boxes around the true objects at frame k, metres in the fixed frame.
+
+    Args:
+        meshes: {frame: surface} of the recording.
+        pair: (k-n, k).
+    """
+    corners = [np.zeros((0, 3))]
+    for frame, mesh in meshes.items():
+        T_fixed_object = pair.object_poses.get(frame)
+        if (
+            T_fixed_object is None
+            or not np.isfinite(T_fixed_object).all()
+            or not len(mesh.vertices)
+        ):
+            continue
+        ends = np.stack([mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)])
+        box = np.array(list(product(*ends.T)))
+        corners.append(box @ T_fixed_object[:3, :3].T + T_fixed_object[:3, 3])
+    found = np.vstack(corners)
+    return found[np.isfinite(found).all(axis=1)]
 
 
 def object_is_known(pair: Pair) -> bool:

@@ -48,6 +48,7 @@ def named_view(
     R_drawing_fixed: NDArray[np.float64],
     projection: Projection,
     before: View | None = None,
+    objects: NDArray[np.float64] | None = None,
 ) -> View:
     """Compute the view of this name for a pair.
 
@@ -57,6 +58,8 @@ def named_view(
         R_drawing_fixed: (3, 3) from the fixed frame into one whose z axis points up.
         projection: of the camera.
         before: the current view, whose direction `FIT` keeps; None for the slanted one's.
+        objects: (N, 3) metres in the fixed frame, of true objects, which are in the picture
+            whether or not they are drawn; None without any.
     """
     points = pair.target.points @ R_drawing_fixed.T
     poses = pair.target.T_fixed_sensor
@@ -72,7 +75,9 @@ def named_view(
         starts = moving_ends(pair)[0] @ R_drawing_fixed.T
         return _from_sensor(points, owner, sensors, axes, starts)
     truth = _truth_ends(pair, R_drawing_fixed[2])
-    important = np.vstack([moving, np.vstack([_landmarks(pair), truth]) @ R_drawing_fixed.T])
+    shown = np.zeros((0, 3)) if objects is None else objects
+    landmarks = np.vstack([_landmarks(pair), truth, shown]) @ R_drawing_fixed.T
+    important = np.vstack([moving, landmarks])
     if name in _DIRECTIONS:
         seen = np.vstack([surroundings(points, sensors), important])
         return filling_view(seen, _DIRECTIONS[name], fov, aspect)

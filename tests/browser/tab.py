@@ -31,7 +31,7 @@ _FORGET = """() => {
 }"""
 _BEGUN = "sessionStorage.getItem('tofscope-session') !== null"
 SIZE: ViewportSize = {"width": 900, "height": 700}
-WIDE: ViewportSize = {"width": 1280, "height": 720}
+WIDE: ViewportSize = {"width": 1400, "height": 720}
 
 
 def until(page: Page, condition: Callable[[], Any], timeout: float = 30.0) -> None:

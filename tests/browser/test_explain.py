@@ -2,6 +2,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tests.browser.tab import Tab
+from tests.browser.test_sizes_in_chromium import in_sight
 
 _CAMERA = """() => {
   const { camera, canvas } = window.__viserMutable;
@@ -104,3 +105,15 @@ def test_turning_the_camera_picks_nothing(tab: Tab):
     tab.page.mouse.up()
     tab.page.wait_for_timeout(700)
     assert tab.row("Cluster").locator("input").first.input_value() == "none"
+
+
+def test_after_a_click_on_a_row_its_story_is_in_sight(tab: Tab):
+    story = tab.page.locator("#tofscope-story")
+    rows = tab.page.locator("tr[data-sets]")
+    for row in (rows.first, rows.last):
+        row.click()
+        number = row.locator("td").first.inner_text()
+        title = story.get_by_text(f"Cluster {number}", exact=True)
+        tab.until(lambda title=title: title.count() == 1 and in_sight(title))
+    outcome = story.locator("svg").last  # beside the sentence at its end
+    assert in_sight(outcome), "a story that is as short as this one is not whole"

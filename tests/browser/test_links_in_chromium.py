@@ -3,6 +3,7 @@
 import numpy as np
 from playwright.sync_api import BrowserContext
 
+from app.scene.scene_root import FIXED
 from app.server.server import Server
 from tests.browser.tab import Tab
 
@@ -56,6 +57,76 @@ def test_a_link_leads_another_tab_to_the_same_place(
     other.until(lambda: other.value("n") == 5 and other.has_text("0.333 s"))  # estimated, too
     other.page.reload()
     other.until(lambda: other.has_text("Moving") and other.value("n") == 5)
+
+
+_DRAWN = """names => names.map(name => {
+  const {points, colors} = window.__viserSceneTree.getState()[name].message.props;
+  return [Array.from(points), Array.from(Object.values(colors))];
+})"""
+_SHOWN = "name => window.__viserSceneTree.getState()[name]?.effectiveVisibility !== false"
+
+
+def drawn(tab: Tab) -> list[np.ndarray]:
+    """Points and colours of the flow of A and of B, and of the picked cluster."""
+    names = [f"{FIXED}/{name}" for name in ("flow", "second_flow", "target", "picked/points")]
+    return [
+        np.array(values, dtype=float)
+        for node in tab.page.evaluate(_DRAWN, names)
+        for values in node
+    ]
+
+
+def chosen(tab: Tab) -> dict[str, str]:
+    """What is chosen in the tabs."""
+    found = {}
+    for name, labels in (
+        ("View", ("Colours", "Static scene", "Arrows show")),
+        ("Explain", ("Cluster",)),
+    ):
+        tab.show(name)
+        for label in labels:
+            found[label] = tab.row(label).locator("input").first.input_value()
+    tab.show("Compare")
+    return found
+
+
+def test_a_link_carries_colours_layers_the_picked_cluster_and_the_comparison(
+    tab: Tab, context: BrowserContext
+):
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    tab.page.locator("tr[data-sets]", has_text="moving").click()
+    tab.until(lambda: len(tab.points("picked/points")) > 20)
+    tab.show("View")
+    tab.choose_option("Colours", "Colour-blind safe")
+    tab.choose_option("Static scene", "Shown")
+    tab.row("Frustums").locator("input").click()
+    frustum = f"{FIXED}/frustums/{tab.frustums()[0]}"
+    tab.until(lambda: not tab.page.evaluate(_SHOWN, frustum))
+    tab.show("Compare")
+    tab.page.get_by_role("button", name="Copy A to B").click()
+    tab.until(lambda: tab.has_text("Parameters of B"))
+    tab.set_slider("n", "ArrowLeft", times=2)
+    tab.page.get_by_text("Draw both", exact=True).click()
+    tab.until(lambda: tab.value("n") == 6 and len(tab.points("second_flow")) > 20)
+    tab.show("Export")
+    tab.page.get_by_role("button", name="Copy link").click()
+    alert = tab.page.get_by_role("alert").filter(has_text="It is in the clipboard")
+    tab.until(lambda: alert.count() > 0)
+    kept = chosen(tab)
+    assert kept["Cluster"] != "none"
+
+    other = Tab(context, tab.page.evaluate("navigator.clipboard.readText()"))
+    other.until(lambda: other.value("n") == 6 and len(other.points("second_flow")) > 20)
+    other.until(lambda: chosen(other) == kept)
+    assert other.page.get_by_label("Draw both").is_checked()
+    assert other.has_text("From A to B: n: 8 → 6")
+    assert not other.page.evaluate(_SHOWN, frustum)
+    other.until(
+        lambda: all(
+            one.shape == two.shape and np.allclose(one, two, atol=1e-3)
+            for one, two in zip(drawn(other), drawn(tab), strict=True)
+        )
+    )
 
 
 def test_a_reload_keeps_recording_frame_parameters_camera_and_view(tab: Tab):

@@ -136,7 +136,13 @@ def test_the_corner_says_what_is_drawn_and_how_large(tab: Tab):
     corner = tab.page.locator("#tofscope-corner")
     tab.until(lambda: "frame 24 of 38 · 1.60 s · Δt 0.533 s" in corner.inner_text())
     assert "robot_moving_0.25_1 (simulated)" in corner.inner_text()
-    assert "n 8 γ 0.7 δ 0.04 m N_min 60" in corner.inner_text()
+    assert "n 8, γ 0.7, δ 0.04 m, N_min 60" in corner.inner_text()
+    whole = corner.inner_text()
+    tab.page.keyboard.press("Home")  # without a pair, hence without its interval
+    tab.until(lambda: "frame 0 of 38" in corner.inner_text())
+    assert "robot_moving_0.25_1 (simulated)" in corner.inner_text()
+    tab.set_slider("Frame", "ArrowRight", 24)
+    tab.until(lambda: corner.inner_text() == whole)
     legend, line = box(tab, "[data-legend]"), box(tab, "#tofscope-corner")
     scene = box(tab, "canvas[data-engine]")
     assert legend["y"] + legend["height"] <= line["y"]

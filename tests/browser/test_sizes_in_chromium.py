@@ -69,3 +69,34 @@ def test_parameters_are_in_sight_and_nothing_overlaps(sized: Tab):
         drawn = scene.bounding_box()
         assert drawn is not None
         assert timeline["width"] > 0.9 * min(drawn["width"], width)
+
+
+_HEIGHTS = """() => {
+  const leaf = document.querySelector("[data-testid=floating-panel]");
+  const [above, , below] = leaf.closest("[data-dock-scroll]").children;
+  const content = leaf.querySelector(".mantine-ScrollArea-content");
+  const view = content.parentElement, foot = below.parentElement.getBoundingClientRect().bottom;
+  return [view.offsetHeight - content.offsetHeight, foot - below.getBoundingClientRect().bottom,
+    above.offsetHeight];
+}"""
+"""Pixels free below the parameters, and below the tabs; height of the parameters' panel."""
+
+
+def test_the_tabs_have_the_height_that_the_parameters_leave_until_a_person_decides(sized: Tab):
+    for width, height in ((1600, 900), (1920, 1080)):
+        sized.page.set_viewport_size({"width": width, "height": height})
+        sized.until(lambda: all(abs(free) < 20 for free in sized.page.evaluate(_HEIGHTS)[:2]))
+    divider = sized.page.locator("[data-dock-divider=column]").bounding_box()
+    assert divider is not None
+    x, y = divider["x"] + divider["width"] / 2, divider["y"] + divider["height"] / 2
+    for way in (-70, 200):
+        before = sized.page.evaluate(_HEIGHTS)[2]
+        sized.page.mouse.move(x, y)
+        sized.page.mouse.down()
+        sized.page.mouse.move(x, y + way / 2)
+        sized.page.mouse.move(x, y + way)
+        sized.page.wait_for_timeout(100)  # until it is drawn there
+        sized.page.mouse.up()
+        y += way
+        sized.page.wait_for_timeout(500)  # in which it could be taken back
+        assert abs(sized.page.evaluate(_HEIGHTS)[2] - before - way) < 15

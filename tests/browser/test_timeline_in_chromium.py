@@ -7,7 +7,7 @@ import numpy as np
 from tests.browser.tab import Tab
 
 _HEIGHT = 40  # px below the top of the tracks, where nothing but the playhead is taken
-_RANGE = 16  # where the handles of the range are
+RANGE = 16  # where the handles of the range are
 _FLAG = 3  # where the flags of marks are
 
 
@@ -84,10 +84,10 @@ _NOTE_FRAMES = """() => {
 def test_handles_set_the_range_that_is_played_again_and_again(tab: Tab):
     said = tab.page.locator("#tofscope-timeline .range")
     before = tab.drawn_frame()
-    drag(tab, 0.0, 0.3, _RANGE)
+    drag(tab, 0.0, 0.3, RANGE)
     tab.page.mouse.up()
     tab.until(lambda: said.inner_text().startswith("plays frames"))
-    drag(tab, 0.998, 0.5, _RANGE)
+    drag(tab, 0.998, 0.5, RANGE)
     tab.page.mouse.up()
     tab.page.wait_for_timeout(500)  # what the session knows of it has come back
     first, last = (int(word) for word in said.inner_text().split() if word.isdigit())
@@ -103,10 +103,10 @@ def test_handles_set_the_range_that_is_played_again_and_again(tab: Tab):
     seen = tab.page.evaluate("frames_seen")
     assert first <= min(seen) <= max(seen) <= last
     tab.page.get_by_role("button", name="Pause", exact=True).click()
-    drag(tab, first / tab.last_frame(), 0.0, _RANGE)
+    drag(tab, first / tab.last_frame(), 0.0, RANGE)
     tab.page.mouse.up()
     tab.page.wait_for_timeout(500)
-    drag(tab, last / tab.last_frame(), 1.0, _RANGE)
+    drag(tab, last / tab.last_frame(), 1.0, RANGE)
     tab.page.mouse.up()
     tab.until(lambda: said.inner_text() == "")
 
@@ -179,3 +179,25 @@ def test_a_mark_with_a_note_is_a_file_beside_the_recording_and_survives_a_reload
     finally:
         for file in recordings_folder.glob("*.marks.json"):
             file.unlink()
+
+
+def advanced(tab: Tab, speed: str) -> int:
+    """How many frames playback at a speed goes on within a second, from the first."""
+    tab.set_slider("Frame", "Home")
+    tab.until(lambda: tab.is_at(0))
+    tab.page.get_by_label("Speed", exact=True).select_option(speed)
+    tab.page.get_by_role("button", name="Play", exact=True).click()
+    tab.until(lambda: tab.drawn_frame() > 0)
+    start = tab.drawn_frame()
+    tab.page.wait_for_timeout(1000)
+    frames = tab.drawn_frame() - start
+    tab.set_slider("Frame", "End")  # where it ends, if it has not yet
+    tab.page.get_by_role("button", name="Play", exact=True).wait_for()
+    return frames
+
+
+def test_playback_is_as_fast_as_is_chosen(tab: Tab):
+    tab.page.get_by_role("button", name="Loop", exact=True).click()  # which ends at the last frame
+    slow, fast = advanced(tab, "0.25x"), advanced(tab, "2x")
+    assert slow > 0
+    assert fast > 2 * slow  # eight times as many, on a machine that has nothing else to do

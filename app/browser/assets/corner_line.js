@@ -24,6 +24,7 @@ window.tofscope ??= {};
         if (index > 0) element("span", "dot", whole, "·");
         whole.append("");
       });
+      written = [];
     }
     parts.forEach((part, index) => {
       if (part !== written[index]) line.children[index].lastChild.data = index > 0 ? ` ${part}` : part;

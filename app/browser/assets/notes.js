@@ -2,15 +2,11 @@
 window.tofscope ??= {};
 {
   document.getElementById("tofscope-notes")?.remove();  // of before a lost connection
-  const dialog = document.createElement("dialog");
+  const {element} = window.tofscope;
+  const dialog = element("dialog", "tofscope-card", document.body);
   dialog.id = "tofscope-notes";
-  dialog.className = "tofscope-card";
-  const title = document.createElement("h2"), list = document.createElement("ul");
-  const close = document.createElement("button");
-  close.textContent = "Close";
-  close.addEventListener("click", () => dialog.close());
-  dialog.append(close, title, list);
-  document.body.append(dialog);
+  element("button", "", dialog, "Close").addEventListener("click", () => dialog.close());
+  const title = element("h2", "", dialog), list = element("ul", "", dialog);
 
   dialog.addEventListener("keydown", event => event.stopPropagation());
   dialog.addEventListener("click", event => {
@@ -26,11 +22,7 @@ window.tofscope ??= {};
     fill: (name, sentences) => {
       title.textContent = `Notes on ${name}`;
       dialog.setAttribute("aria-label", title.textContent);
-      list.replaceChildren(...sentences.map(sentence => {
-        const item = document.createElement("li");
-        item.textContent = sentence;
-        return item;
-      }));
+      list.replaceChildren(...sentences.map(sentence => element("li", "", null, sentence)));
     },
   };
 }

@@ -14,10 +14,17 @@ window.tofscope ??= {};
     return steps.map(step => step * power).find(step => step >= value * (1 - 1e-9));
   };
 
-  // Numbers at a round distance between the ends of an axis, at least `space` pixels apart.
+  // Numbers at a round distance between the ends of an axis, at least `space` pixels apart unless
+  // there were then no two.
   const ticks = (axis, pixels, space) => {
-    const step = roundUp((axis.high - axis.low) * space / Math.max(pixels, 1));
-    const first = Math.ceil(axis.low / step - 1e-9), last = Math.floor(axis.high / step + 1e-9);
+    let step = roundUp((axis.high - axis.low) * space / Math.max(pixels, 1));
+    const ends = () =>
+      [Math.ceil(axis.low / step - 1e-9), Math.floor(axis.high / step + 1e-9)];
+    let [first, last] = ends();
+    if (last <= first) {
+      step = roundUp(0.4 * step);
+      [first, last] = ends();
+    }
     const decimals = Math.min(Math.max(-Math.floor(Math.log10(step) + 1e-9), 0), 9);
     return Array.from({length: Math.max(last - first + 1, 0)}, (_, k) => {
       const value = (first + k) * step;

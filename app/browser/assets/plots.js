@@ -32,7 +32,9 @@ window.tofscope ??= {};
       y: data.values(name, of),
       counts: data.counts(of),
       colour: state.colours[of],
-      size: (index ? 1.6 : reference ? 2.6 : 2.2) * (state.enlarged ? LARGER : 1),
+      // Of two sides the second is drawn within the first, which stays seen where they agree.
+      size: (state.shown.length > 1 ? [3, 1.5][index] : reference ? 2.6 : 2.2)
+        * (state.enlarged ? LARGER : 1),
       alpha: data.alpha(of),
       joined: true,
     }));

@@ -101,7 +101,7 @@ if (!window.tofscope.sensors) {
     box.replaceChildren();
     const order = [...images.counts.keys()].filter(sensor => images.counts[sensor]);
     order.sort((a, b) => images.counts[b] - images.counts[a]);
-    element("span", "", box, order.length ? "Something moves in front of " : "Nothing moves in view.");
+    element("span", "", box, order.length ? "Something moves in front of " : "No motion found.");
     for (const sensor of order.slice(0, 8)) {
       const zones = sensor === order[0] ? " zones" : "";
       const text = `${layout.names[sensor]} (${images.counts[sensor]}${zones})`;

@@ -23,7 +23,7 @@ window.tofscope ??= {};
 
   // Lets what a person has set stand until the session knows of it, which still says older values
   // meanwhile: `told` notes what is set, and `heard` applies what the session says.
-  const PATIENCE = 1000;  // milliseconds
+  const PATIENCE = 400;  // milliseconds
   tofscope.untilKnown = apply => {
     let awaited = null, last = null, timer = null;
     const forget = () => {

@@ -17,6 +17,10 @@ if (!window.tofscope.keepsTabs) {
     const tab = event.target.closest("[role=tab]");
     if (tab) keep(tab);
   }, true);
+  // A focused tab would take the space bar.
+  document.addEventListener("click", event => {
+    if (event.detail > 0) event.target.closest("[role=tab]")?.blur();
+  });
   document.addEventListener("keyup", event => {
     const tab = event.target.closest?.("[role=tab][aria-selected=true]");
     if (tab) keep(tab);

@@ -184,6 +184,7 @@
     // Speed, loop and range, this unless a person holds an end of it.
     playback: ({first, last: end, ...others}) => {
       Object.assign(state, others);
+      if (state.playing) frames.forget();
       ranges.heard({first, last: end});
       show();
     },

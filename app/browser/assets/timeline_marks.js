@@ -1,6 +1,7 @@
 // Card in which a mark of the timeline gets its note.
 window.tofscope ??= {};
-window.tofscope.timelineMarks = (element, state, place) => {
+window.tofscope.timelineMarks = (timeline, state, place) => {
+  const {element, tell} = window.tofscope;
   let card = null;
   const close = () => {
     card?.remove();
@@ -10,28 +11,25 @@ window.tofscope.timelineMarks = (element, state, place) => {
   const edit = frame => {
     close();
     const mark = state.marks.find(each => each.frame === frame);
-    card = document.createElement("div");
-    card.className = "mark-card";
+    card = element("div", "mark-card", timeline);
     card.setAttribute("role", "dialog");
     card.setAttribute("aria-label", "Mark");
-    card.innerHTML = `<div></div><input maxlength="500" aria-label="Note"
-      placeholder="What is there to see?"><footer></footer>`;
-    card.firstChild.textContent =
-      `${mark ? "Mark" : "New mark"} at frame ${frame}, ${state.times[frame].toFixed(3)} s`;
-    const note = card.querySelector("input");
+    element("div", "", card,
+      `${mark ? "Mark" : "New mark"} at frame ${frame}, ${state.times[frame].toFixed(3)} s`);
+    const note = element("input", "", card), buttons = element("footer", "", card);
+    Object.assign(note, {maxLength: 500, placeholder: "What is there to see?"});
+    note.setAttribute("aria-label", "Note");
     note.value = mark?.text ?? "";
     const save = () => {
-      window.tofscope.tell("mark", {frame, text: note.value.trim()});
+      tell("mark", {frame, text: note.value.trim()});
       close();
     };
     const button = (label, action) => {
-      const made = document.createElement("button");
+      const made = element("button", "", buttons, label);
       made.type = "button";
-      made.textContent = label;
       made.addEventListener("click", action);
-      card.querySelector("footer").append(made);
     };
-    if (mark) button("Remove", () => { window.tofscope.tell("unmark", {frame}); close(); });
+    if (mark) button("Remove", () => { tell("unmark", {frame}); close(); });
     button("Cancel", close);
     button("Save", save);
     note.addEventListener("keydown", event => {
@@ -39,8 +37,7 @@ window.tofscope.timelineMarks = (element, state, place) => {
       if (event.key === "Enter") save();
       if (event.key === "Escape") close();
     });
-    element.append(card);
-    const {left} = element.querySelector(".tracks").getBoundingClientRect();
+    const {left} = timeline.querySelector(".tracks").getBoundingClientRect();
     const wanted = left + place(frame) - card.offsetWidth / 2;
     card.style.left = `${Math.max(Math.min(wanted, window.innerWidth - card.offsetWidth - 8), 8)}px`;
     note.focus();

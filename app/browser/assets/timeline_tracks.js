@@ -10,7 +10,11 @@ window.tofscope.timelineTracks = (box, state) => {
   const duration = () => Math.max(state.times[state.times.length - 1], 1e-3);
   const width = () => Math.max(box.clientWidth, 1);
   const x = seconds => (seconds - view.start) / (view.end - view.start) * width();
-  const at = frame => x(state.times[Math.min(Math.max(frame, 0), state.times.length - 1)]);
+  const at = frame => {  // `frame` may lie between two frames
+    const {times} = state, place = Math.min(Math.max(frame, 0), times.length - 1);
+    const before = Math.floor(place), part = place - before;
+    return x(part ? (1 - part) * times[before] + part * times[before + 1] : times[before]);
+  };
   tracks.place = at;  // of a frame, in px from the left
   const secondsAt = px => view.start + px / width() * (view.end - view.start);
 

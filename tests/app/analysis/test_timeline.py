@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.analysis import live_timeline
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.live_timeline import LiveTimeline
@@ -117,3 +118,16 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     assert surveys.known(opened, Parameters()) is None
     live._last = None if live._last is None else (*live._last[:1], 0.0, seen)
     assert live.of(opened, Parameters()) == seen
+
+
+def test_what_a_survey_finds_last_is_in_the_timeline_at_once(monkeypatch):
+    monkeypatch.setattr(live_timeline, "_AGE", 3600.0)
+    opened, estimates = fake_opened(without_truth()), Estimates()
+    surveys, complete = Surveys(estimates), threading.Event()
+    live = LiveTimeline(estimates, surveys)
+    assert live.of(opened, Parameters()).moving == ()
+    surveys.request(
+        "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None
+    )
+    assert complete.wait(60)
+    assert live.of(opened, Parameters()).moving == ((8, FRAMES - 1),)

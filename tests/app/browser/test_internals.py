@@ -166,6 +166,17 @@ def test_notices_have_classes():
     )
 
 
+def test_the_panels_at_one_side_and_the_divider_between_them_are_found():
+    in_page(
+        *('"data-dock-leaf"', '"data-dock-scroll"', '"data-dock-divider"', "`floating-panel`"),
+        why="the parameters' panel is higher than they are (assets/panel_height.js)",
+    )
+
+
+def test_grey_buttons_say_so_in_their_style():
+    in_page("--mantine-color-", "-filled", why="they are too pale (assets/controls.css)")
+
+
 def test_the_notice_of_drawing_by_software_can_be_removed():
     in_page(
         "`webgl-software-rendering`",

@@ -90,13 +90,19 @@ def test_no_side_is_the_better_one_before_the_whole_recording_is_computed(estima
 )
 def test_a_sentence_says_which_is_better_over_the_recording(of_b, said):
     numbers = {"angle_deg": 10.0, "velocity_error": 0.1, "coverage": 0.5, "precision": 0.5}
+    numbers["moving"] = 1628.0
     a, b = (Totals(values, "9 of 10", complete=True) for values in (numbers, numbers | of_b))
-    assert verdict({A: a, B: b}) == f"Over the whole recording {said}"
+    assert verdict({A: a, B: b}) == f"Over the 9 of 10 pairs that count {said}"
     assert verdict({A: a, B: replace(b, complete=False)}) == ""
     assert verdict({A: a, B: None}) == ""
     assert other_pairs({A: a, B: b}) == other_pairs({A: a, B: None}) == ""
     assert "9 of 10 count for A, 8 of 9 for B" in other_pairs(
         {A: a, B: replace(b, counting="8 of 9")}
+    )
+    fewer = Totals(numbers | {"moving": 949.0}, "8 of 9", complete=True)
+    assert verdict({A: a, B: fewer}) == (
+        "Over the whole recording A and B are equally good. "
+        "In all pairs A finds 1628 moving points, B 949."
     )
     unknown = replace(a, numbers=dict.fromkeys(numbers, float("nan")))
     assert verdict({A: unknown, B: unknown}).startswith("No pair counts")

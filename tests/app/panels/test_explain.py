@@ -63,6 +63,21 @@ def test_removed_inliers_are_those_of_the_rounds_that_removed(moving):
     assert "none" not in story(given_up, Parameters(), COLOURS)
 
 
+def test_a_round_that_pairs_nothing_has_no_fitness_and_no_displacement(moving):
+    first = moving.rounds[0]
+    nothing = first.inlier_source[:0]
+    empty = replace(
+        first, fitness=0.0, mean_displacement=0.0, inlier_source=nothing, inlier_target=nothing
+    )
+    given_up = replace(moving, rounds=(first, empty), label=Label.UNASSIGNED)
+    told = story(given_up, Parameters(), COLOURS)
+    assert "no pairs" in told
+    assert "0.000 m" not in told
+    assert "0 / 0" not in told
+    assert told.count("+40") == 2  # its points are as many as before
+    assert "no pairs" not in story(moving, Parameters(), COLOURS)
+
+
 def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
     text = story(
         replace(moving, rounds=(), reason="Unassigned: few <points>."), Parameters(), COLOURS

@@ -101,7 +101,7 @@ def test_the_rows_are_always_the_same_so_that_the_page_does_not_jump():
 )
 def test_why_nothing_moves_is_said_in_words(parameters, why):
     pair = Estimates().estimated(fake_opened(), 20, parameters)
-    assert note_on(pair, parameters) == f"Nothing moves: {why}."
+    assert note_on(pair, parameters) == f"No motion found: {why}."
 
 
 @pytest.mark.usefixtures("methods_of_a_test")
@@ -109,7 +109,7 @@ def test_no_advice_is_given_on_parameters_that_the_method_does_not_use():
     register(Method("still", lambda window, _: scene_flow_of_points(np.nan * window.source.points)))
     parameters = Parameters(method="still")
     pair = Estimates().estimated(fake_opened(), 20, parameters)
-    assert note_on(pair, parameters) == "Nothing moves."
+    assert note_on(pair, parameters) == "No motion found."
 
 
 def test_without_truth_it_is_said_how_there_would_be_some():

@@ -17,7 +17,7 @@ def pair():
 def test_the_line_says_what_is_drawn(pair):
     recording = fake_recording(name="walk")
     assert corner_line(recording, 24, pair, Parameters()) == (
-        "walk · frame 24 of 39 · 1.60 s · Δt 0.533 s · paper · n 8 γ 0.7 δ 0.04 m N_min 60"
+        "walk · frame 24 of 39 · 1.60 s · Δt 0.533 s · paper · n 8, γ 0.7, δ 0.04 m, N_min 60"
     )
 
 
@@ -36,18 +36,18 @@ def test_without_a_pair_there_is_no_interval(pair):
 def test_parameters_without_a_slider_are_named_where_they_differ_from_their_defaults():
     other = Parameters(min_cluster_size=30, allow_single_cluster=True, max_range=2.5)
     assert parameters_text(other) == (
-        "n 8 γ 0.7 δ 0.04 m N_min 60 min cluster size 30 allow single cluster max range 2.5 m"
+        "n 8, γ 0.7, δ 0.04 m, N_min 60, min cluster size 30, allow single cluster, max range 2.5 m"
     )
 
 
 def test_only_parameters_of_the_method_are_named():
-    assert parameters_text(Parameters(method="baseline", gamma=0.1)) == "n 8 N_min 60"
+    assert parameters_text(Parameters(method="baseline", gamma=0.1)) == "n 8, N_min 60"
 
 
 def test_both_sides_are_named_where_both_are_drawn(pair):
     sides = {A: Parameters(), B: Parameters(method="baseline")}
     parts = corner_parts(fake_recording(), 24, pair, Parameters(), sides)
-    assert parts[-2:] == ("A: paper n 8 γ 0.7 δ 0.04 m N_min 60", "B: baseline n 8 N_min 60")
+    assert parts[-2:] == ("A: paper n 8, γ 0.7, δ 0.04 m, N_min 60", "B: baseline n 8, N_min 60")
 
 
 def test_the_middle_of_a_long_name_is_left_out():

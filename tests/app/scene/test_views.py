@@ -134,3 +134,10 @@ def test_a_near_thing_is_cleared_away_only_where_the_camera_is_far():
     assert far.height / close.height == pytest.approx(4.0 / 0.3)
     assert not far.similar(close)
     assert far.similar(Lens(4.1, 0.66))
+
+
+@pytest.mark.parametrize("name", [ABOVE, FRONT, SLANTED])
+def test_a_true_object_is_in_the_picture_wherever_it_stands(pair, name):
+    aside = np.array([[2.0, -3.0, 0.0], [2.5, -2.5, 1.8]])
+    assert not in_picture(named_view(name, pair, np.eye(3), FILM), aside).all()
+    assert in_picture(named_view(name, pair, np.eye(3), FILM, objects=aside), aside).all()

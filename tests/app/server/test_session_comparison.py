@@ -107,7 +107,7 @@ def test_an_error_of_one_estimate_is_told_and_the_other_is_shown(session, client
     client.press("Copy A to B")
     until(lambda: "<b>B</b> is shown" in client.text())
     client.press("Draw both")
-    until(lambda: "The flow of B." in client.text())
+    until(lambda: "The flow of B, over that of A." in client.text())
     runs.error = RuntimeError("B has had enough")
     client.change("δ", 0.05)
     until(lambda: any("B has had enough" in n for n in client.notifications))
