@@ -9,6 +9,7 @@ from app.scene.palettes import Palette
 from estimator import ClusterResult, IcpRound, Label, Parameters, StoryRow
 
 _ROOM = "calc(12.6em + 6px)"  # of the cluster table: the half of a row says that it scrolls
+_NO_PAIRS = "no pairs"  # in place of a fitness of 0.00
 
 
 def fills(palette: Palette) -> dict[Label, str]:
@@ -129,6 +130,8 @@ def _telling_cells(cluster: ClusterResult) -> tuple[str, str]:
     turn = telling_round(cluster)
     if turn is None:
         return number(None, ""), number(None, "")
+    if len(turn.inlier_source) == 0:
+        return _NO_PAIRS, number(None, "")
     return number(turn.fitness, ".2f"), number(turn.mean_displacement, ".3f", " m")
 
 
@@ -158,7 +161,7 @@ def _round_cells(
     sizes = f"{turn.source_size} / {turn.target_size}"
     points = _with_margin(sizes, most - parameters.n_min, "+d")
     if len(turn.inlier_source) == 0:
-        return str(count), points, "no pairs", number(None, ""), "none"
+        return str(count), points, _NO_PAIRS, number(None, ""), "none"
     return (
         str(count),
         points,

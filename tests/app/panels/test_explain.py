@@ -76,6 +76,10 @@ def test_a_round_that_pairs_nothing_has_no_fitness_and_no_displacement(moving):
     assert "0 / 0" not in told
     assert told.count("+40") == 2  # its points are as many as before
     assert "no pairs" not in story(moving, Parameters(), COLOURS)
+    never = replace(given_up, rounds=(empty,))
+    row = cluster_table([never], None, COLOURS, no_click)
+    assert "no pairs" in row
+    assert "0.00" not in row
 
 
 def test_a_cluster_that_was_skipped_has_no_round_and_still_a_reason(moving):
