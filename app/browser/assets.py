@@ -2,6 +2,7 @@
 
 import json
 from base64 import b64encode
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 
@@ -43,6 +44,27 @@ def call(client: viser.ClientHandle, function: str, *values: object) -> None:
     """
     arguments = ", ".join(json.dumps(value, separators=(",", ":")) for value in values)
     run_script(client, f"window.tofscope.{function}({arguments});")
+
+
+class ChangedCalls:
+    """Calls functions of our scripts in the page, each only with another value than its last.
+
+    Args:
+        client: owner of the page.
+        known: {function: value} that the page begins with.
+    """
+
+    def __init__(
+        self, client: viser.ClientHandle, known: Mapping[str, object] | None = None
+    ) -> None:
+        self._client = client
+        self._last: dict[str, object] = dict(known or {})
+
+    def send(self, function: str, value: object) -> None:
+        """Call a function with a value that JSON can hold, unless it was the last one."""
+        if function not in self._last or self._last[function] != value:
+            self._last[function] = value
+            call(self._client, function, value)
 
 
 def packed(values: ArrayLike, kind: str) -> str:

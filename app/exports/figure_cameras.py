@@ -1,6 +1,5 @@
 """Cameras of a figure's views, whose pictures are filled by what moves and what sees it."""
 
-import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,7 +12,7 @@ from app.scene.camera import Camera
 from app.scene.drawn_flow import moving_ends
 from app.scene.lens import FOV, WIDE_FOV
 from app.scene.scene_root import upright
-from app.scene.shapes import robot_shape
+from app.scene.shapes import box_corners, corners_of, robot_shape
 from app.scene.truth import object_corners
 from app.scene.views import ABOVE, FRONT, SENSORS, SLANTED, Projection, named_view
 from recordings import Recording
@@ -71,7 +70,7 @@ def _moving(pair: Pair) -> NDArray[np.float64]:
     if len(points) == 0:
         return np.zeros((0, 3))
     sets = (points, tips, pair.target.points[moving_targets(pair)])
-    boxes = [_corners(*np.percentile(points, _KEPT, axis=0)) for points in sets if len(points)]
+    boxes = [box_corners(*np.percentile(points, _KEPT, axis=0)) for points in sets if len(points)]
     return np.vstack(boxes) if boxes else np.zeros((0, 3))
 
 
@@ -89,12 +88,5 @@ def _robot(recording: Recording, pair: Pair) -> NDArray[np.float64]:
         for link, parts in robot_shape(recording.robot).links.items():
             pose = pair.link_poses.get(link)
             if pose is not None and np.isfinite(pose).all():
-                for part in parts:
-                    box = _corners(part.vertices.min(axis=0), part.vertices.max(axis=0))
-                    corners.append(box @ pose[:3, :3].T + pose[:3, 3])
+                corners += [corners_of(part.vertices, pose) for part in parts]
     return np.vstack(corners)
-
-
-def _corners(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Corners (8, 3) of a box."""
-    return np.array(list(itertools.product(*zip(low, high, strict=True))))

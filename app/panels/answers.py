@@ -9,7 +9,7 @@ from pydantic import model_validator
 from app.analysis.answers import Answer
 from app.analysis.selection import cluster_of
 from app.analysis.zones import Zone
-from app.browser.assets import call, run_asset
+from app.browser.assets import ChangedCalls, run_asset
 from app.browser.page_events import EventContent, NoContent
 from app.panels.answer_rows import rows, title
 from app.panels.cluster_story import story
@@ -92,11 +92,10 @@ class AnswersPanel(Panel):
     """Box beside the pointer, and a card in the corner of the scene for what is pinned."""
 
     def __init__(self, context: PanelContext) -> None:
-        self._client, gui, post = context.client, context.client.gui, context.post
-        self._pointed: dict[str, Any] | None = None
-        self._pinned: dict[str, Any] | None = None
-        run_asset(self._client, "answers.css")
-        run_asset(self._client, "answers.js")
+        client, gui, post = context.client, context.client.gui, context.post
+        self._calls = ChangedCalls(client, {"answers.point": None, "answers.pin": None})
+        run_asset(client, "answers.css")
+        run_asset(client, "answers.js")
         context.events.on("pointed", Pointed, lambda pointed: post(LookAt(pointed)))
         context.events.on("let_go", NoContent, lambda _: post(LetGo()))
         context.events.on("look_from_sensor", NoContent, lambda _: post(LookFromSensor()))
@@ -114,12 +113,8 @@ class AnswersPanel(Panel):
         if pointed is None and inspected.pointed_sensor is not None:
             name = snapshot.opened.recording.sensors[inspected.pointed_sensor].name
             pointed = {"title": f"Sensor {name}", "rows": []}
-        if pointed != self._pointed:
-            self._pointed = pointed
-            call(self._client, "answers.point", pointed)
-        if pinned != self._pinned:
-            self._pinned = pinned
-            call(self._client, "answers.pin", pinned)
+        self._calls.send("answers.point", pointed)
+        self._calls.send("answers.pin", pinned)
 
 
 def _story(snapshot: Snapshot) -> str:

@@ -1,6 +1,6 @@
 """Line in the corner of the scene, with a scale bar."""
 
-from app.browser.assets import call, run_asset
+from app.browser.assets import ChangedCalls, run_asset
 from app.panels.panel import Panel, PanelContext
 from app.scene.corner_line import corner_parts
 from app.session.snapshot import Snapshot
@@ -10,17 +10,13 @@ class CornerLinePanel(Panel):
     """What is drawn, in one line, and how large it is; shown together with the legend."""
 
     def __init__(self, context: PanelContext) -> None:
-        self._client = context.client
-        self._shown: dict[str, object] = {}
-        run_asset(self._client, "corner_line.css")
-        run_asset(self._client, "corner_line.js")
+        self._calls = ChangedCalls(context.client)
+        run_asset(context.client, "corner_line.css")
+        run_asset(context.client, "corner_line.js")
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the line of the current drawing, and the scale of the current camera."""
-        content = _content(snapshot)
-        if content != self._shown:
-            self._shown = content
-            call(self._client, "corner.show", content)
+        self._calls.send("corner.show", _content(snapshot))
 
 
 def _content(snapshot: Snapshot) -> dict[str, object]:

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from app.analysis.few_points import FEW_POINTS, for_few_points, has_too_few_points
 from app.analysis.pairs import Pair
-from app.browser.assets import call, run_asset
+from app.browser.assets import ChangedCalls, run_asset
 from app.browser.page_events import NoContent
 from app.panels.panel import Panel, PanelContext
 from app.panels.status import note_on
@@ -36,19 +36,15 @@ class SceneNotePanel(Panel):
     """Says above the legend why no arrow is drawn, or that what is drawn is out of the picture."""
 
     def __init__(self, context: PanelContext) -> None:
-        self._client = context.client
-        self._shown: dict[str, object] = {}
-        run_asset(self._client, "scene_note.css")
-        run_asset(self._client, "scene_note.js")
+        self._calls = ChangedCalls(context.client)
+        run_asset(context.client, "scene_note.css")
+        run_asset(context.client, "scene_note.js")
         context.events.on("fit_view", NoContent, lambda _: context.post(SetView(FIT)))
         context.events.on("try_few_points", NoContent, lambda _: context.post(TryFewPoints()))
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the note on the current pair, or none where something moves."""
-        content = _content(snapshot)
-        if content != self._shown:
-            self._shown = content
-            call(self._client, "note.show", content)
+        self._calls.send("note.show", _content(snapshot))
 
 
 def _content(snapshot: Snapshot) -> dict[str, object]:

@@ -1,7 +1,7 @@
 """Timeline along the bottom of the window: transport, tracks, range, marks."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import viser
@@ -9,7 +9,7 @@ from pydantic import Field
 
 from app.analysis.library import Opened
 from app.analysis.quantities import QUANTITIES, Quantity
-from app.browser.assets import call, packed, run_asset
+from app.browser.assets import ChangedCalls, call, packed, run_asset
 from app.browser.page_events import EventContent, NoContent
 from app.panels.histograms import upper_limit
 from app.panels.panel import Panel, PanelContext
@@ -103,7 +103,7 @@ class TimelinePanel(Panel):
 
     def __init__(self, context: PanelContext) -> None:
         self._client, post = context.client, context.post
-        self._sent: dict[str, Any] = {}
+        self._begin()
         for name in _ASSETS:
             run_asset(context.client, name)
         listen = context.events.on
@@ -130,36 +130,43 @@ class TimelinePanel(Panel):
         mark = gui.add_command("Mark this frame", hotkey="K", icon=viser.Icon.BOOKMARK)
         post_on(post, EditMark(), mark)
 
+    def _begin(self) -> None:
+        """Forget what the page was told of another recording."""
+        self._calls = ChangedCalls(self._client)
+        self._quantity: tuple[str, int, int] | None = None
+        self._edited: int | None = None
+
     def open(self, opened: Opened) -> None:
         """Show the time of a newly opened recording."""
         stamps = opened.recording.stamps
-        self._sent = {}
+        self._begin()
         call(self._client, "timeline.open", packed(stamps - stamps[0], "<f4"), SPEEDS)
 
     def show(self, snapshot: Snapshot) -> None:
         """Show the frame, playback, and what is known of the recording."""
         timeline, playback, settings = snapshot.timeline, snapshot.playback, snapshot.settings
-        self._send("colours", _colours(settings.palette))
-        self._send(
-            "events", {"moving": timeline.moving, "gaps": timeline.gaps, "empty": timeline.empty}
+        self._calls.send("timeline.colours", _colours(settings.palette))
+        self._calls.send(
+            "timeline.events",
+            {"moving": timeline.moving, "gaps": timeline.gaps, "empty": timeline.empty},
         )
-        self._send("playback", {"playing": snapshot.playing, **vars(playback)})
-        self._send("marks", [vars(mark) for mark in snapshot.marks])
+        self._calls.send("timeline.playback", {"playing": snapshot.playing, **vars(playback)})
+        self._calls.send("timeline.marks", [vars(mark) for mark in snapshot.marks])
         if not snapshot.seeking:
-            self._send("frame", snapshot.frame)
+            self._calls.send("timeline.frame", snapshot.frame)
         self._show_quantity(snapshot)
-        if snapshot.edited_mark != self._sent.setdefault("edited", snapshot.edited_mark):
-            self._sent["edited"] = snapshot.edited_mark
+        if self._edited not in (None, snapshot.edited_mark):
             call(self._client, "timeline.edit", snapshot.frame)
+        self._edited = snapshot.edited_mark
 
     def _show_quantity(self, snapshot: Snapshot) -> None:
         recording, survey = snapshot.opened.recording, snapshot.survey
         options = drawable(has_truth=recording.has_truth)
         chosen = snapshot.settings.strip if snapshot.settings.strip in options else "moving"
         state = (chosen, id(survey), snapshot.survey_revision)
-        if self._sent.get("quantity") == state:
+        if self._quantity == state:
             return
-        self._sent["quantity"] = state
+        self._quantity = state
         quantity, unknown = options[chosen], np.full(len(recording), np.nan)
         values = quantity.values(recording, survey) if survey else unknown
         about = {
@@ -173,12 +180,6 @@ class TimelinePanel(Panel):
         }
         valid = survey.valid if survey else unknown
         call(self._client, "timeline.quantity", about, packed(values, "<f4"), packed(valid, "<f4"))
-
-    def _send(self, function: str, value: Any) -> None:  # noqa: ANN401 (JSON)
-        """Call a function of the page's timeline, unless its value is the last one."""
-        if function not in self._sent or self._sent[function] != value:
-            self._sent[function] = value
-            call(self._client, f"timeline.{function}", value)
 
 
 def drawable(*, has_truth: bool) -> dict[str, Quantity]:

@@ -11,6 +11,7 @@ from app.analysis.selection import points_of
 from app.scene.camera import Camera
 from app.scene.palettes import Palette
 from app.scene.scene_root import FIXED
+from app.scene.shapes import box_corners
 from estimator import ClusterResult
 
 PICKED_NODE = f"{FIXED}/picked"
@@ -21,7 +22,7 @@ _IN_VIEW = 0.6  # of half the field of view, within which the label's cluster is
 _TOP = 0.85  # of half the picture's height, up to which the label is kept
 _BESIDE = 1.4  # half a picture's width, relative to half its height
 _MARGIN = 0.015  # metres between the points and the box around them
-_CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
+_CORNERS = box_corners(np.zeros(3), np.ones(3))
 _EDGES = np.array(
     [
         (a, b)
@@ -121,7 +122,7 @@ def box_around(points: NDArray[np.float64]) -> NDArray[np.float32]:
 def corners_around(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Corners (8, 3) of the axis-aligned bounding box of points (N, 3), N >= 1, with a margin."""
     low, high = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
-    return low + _CORNERS * (high - low)
+    return box_corners(low, high)
 
 
 def _mostly_seen(corners: NDArray[np.float64], camera: Camera) -> bool:

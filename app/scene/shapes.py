@@ -3,6 +3,7 @@
 import hashlib
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import product
 
 import numpy as np
 import trimesh
@@ -76,6 +77,22 @@ def ring_through(positions: NDArray[np.float64]) -> trimesh.Trimesh | None:
     )
     torus.apply_transform(pose)
     return torus
+
+
+def box_corners(low: NDArray[np.floating], high: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Corners (8, 3) of the box between two of them, (3,) each."""
+    return np.array(list(product(*zip(low, high, strict=True))))
+
+
+def corners_of(
+    vertices: NDArray[np.floating], T_fixed_mesh: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Corners (8, 3), in the fixed frame, of the box around vertices (V, 3), V >= 1, in their own.
+
+    NaN where the pose (4, 4) is.
+    """
+    box = box_corners(vertices.min(axis=0), vertices.max(axis=0))
+    return box @ T_fixed_mesh[:3, :3].T + T_fixed_mesh[:3, 3]
 
 
 def coarse(

@@ -1,12 +1,12 @@
 """Geometry of the truth's arrow, of the true object, and of the points that stand for it."""
 
 from collections.abc import Mapping
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.analysis.pairs import Pair
+from app.scene.shapes import corners_of
 from estimator import truly_moves
 from recordings import ObjectMesh
 
@@ -56,9 +56,7 @@ def object_corners(meshes: Mapping[str, ObjectMesh], pair: Pair) -> NDArray[np.f
             or not len(mesh.vertices)
         ):
             continue
-        ends = np.stack([mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)])
-        box = np.array(list(product(*ends.T)))
-        corners.append(box @ T_fixed_object[:3, :3].T + T_fixed_object[:3, 3])
+        corners.append(corners_of(mesh.vertices, T_fixed_object))
     found = np.vstack(corners)
     return found[np.isfinite(found).all(axis=1)]
 

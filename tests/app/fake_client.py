@@ -62,7 +62,6 @@ class FakeClient:
         self.downloads: list[tuple[str, bytes]] = []
         self.render: Any = np.zeros((60, 80, 4), dtype=np.uint8)
         self.sent: list[Any] = []
-        self.legend = ""
         self.link: str | None = None
         self.system_dark = False
         self._calls = PageCalls()
@@ -79,7 +78,7 @@ class FakeClient:
         server._websock_server.queue_message = keep
 
     def _run(self, script: str) -> None:
-        """Carry out the scripts that store a value or write the legend, and note calls of ours."""
+        """Carry out the scripts that store a value, and note calls of ours."""
         self._calls.note(script)
         if kept := re.search(r'sessionStorage.setItem\("tofscope-(\w+)", "(.*)"\)', script):
             self.local_storage.set_item(*kept.groups())
@@ -91,8 +90,6 @@ class FakeClient:
             elif 'query.get("link")' in script and self.link is not None:
                 self.local_storage.set_item(key[1], self.link)
                 self.link = None
-        if legend := re.search(r"tofscope.legend.show\((.*)\);", script):
-            self.legend = json.loads(legend[1])
 
     @classmethod
     @contextmanager
@@ -177,6 +174,12 @@ class FakeClient:
     def shown(self, function: str) -> list[Any] | None:
         """Arguments of the last call of a function of our scripts, such as "timeline.frame"."""
         return self._calls.shown(function)
+
+    @property
+    def legend(self) -> str:
+        """HTML of the legend, "" before there is one."""
+        [html] = self.shown("legend.show") or [""]
+        return html
 
     def press(self, label: str) -> None:
         """Press a button."""

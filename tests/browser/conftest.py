@@ -14,7 +14,7 @@ from app.server.session import Shared
 from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import open_recording, sample_paths
-from tests.browser.tab import SIZE, WIDE, Tab
+from tests.browser.tab import Tab
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = [
@@ -105,10 +105,8 @@ def tab(first_tab: Tab) -> Tab:
 @pytest.fixture
 def wide_tab(first_tab: Tab) -> Iterator[Tab]:
     """The same in a window that is wide enough for the panel on the left to be open."""
-    first_tab.page.set_viewport_size(WIDE)
-    first_tab.begin_again()
-    yield first_tab
-    first_tab.page.set_viewport_size(SIZE)
+    with first_tab.widened() as wide:
+        yield wide
 
 
 @pytest.fixture

@@ -2,8 +2,9 @@
 
 import re
 import time
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +113,14 @@ class Tab:
         if label == "Frame":
             return self.page.get_by_role("slider", name=label, exact=True)
         return self.row(label).locator("[role=slider]")
+
+    @contextmanager
+    def widened(self) -> Iterator[Self]:
+        """Context of a new session in a window that has room for the panel on the left."""
+        self.page.set_viewport_size(WIDE)
+        self.begin_again()
+        yield self
+        self.page.set_viewport_size(SIZE)
 
     def set_slider(self, label: str, key: str, times: int = 1) -> None:
         """Move a slider with the keyboard."""

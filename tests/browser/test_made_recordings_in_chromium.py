@@ -20,7 +20,7 @@ from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import open_recording
 from tests.browser import made_recordings as made
-from tests.browser.tab import SIZE, WIDE, Tab
+from tests.browser.tab import Tab
 from tests.browser.test_explain import pixel, pixels
 
 _WRITERS = {
@@ -66,10 +66,8 @@ def made_tab(
 
 @pytest.fixture
 def tab(made_tab: Tab) -> Iterator[Tab]:
-    made_tab.page.set_viewport_size(WIDE)
-    made_tab.begin_again()
-    yield made_tab
-    made_tab.page.set_viewport_size(SIZE)
+    with made_tab.widened() as wide:
+        yield wide
 
 
 def column(tab: Tab, frame: float) -> NDArray[np.int64]:

@@ -1,4 +1,3 @@
-import json
 from dataclasses import replace
 
 import pytest
@@ -17,12 +16,11 @@ class Corner:
     def __init__(self, client):
         self._client = client
         self._panel = CornerLinePanel(context(client))
-        client.take_sent()
 
     def shows(self, **changes):
+        self._client.take_sent()
         self._panel.show(snapshot(**changes))
-        calls = [m.source for m in self._client.take_sent() if "corner.show" in m.source]
-        return [json.loads(c[c.index("(") + 1 : c.rindex(")")]) for c in calls]
+        return [content for (content,) in self._client.called("corner.show")]
 
 
 @pytest.fixture

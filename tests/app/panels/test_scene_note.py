@@ -1,4 +1,3 @@
-import json
 from dataclasses import replace
 
 import pytest
@@ -22,8 +21,8 @@ class Note:
 
     def says(self, **changes):
         self._panel.show(snapshot(**changes))
-        (call,) = [m.source for m in self._client.take_sent() if "note.show" in m.source]
-        return json.loads(call[call.index("(") + 1 : call.rindex(")")])
+        ((content,),) = self._client.called("note.show")
+        return content
 
 
 @pytest.fixture
