@@ -3,11 +3,9 @@ window.tofscope ??= {};
 {
   const {tofscope} = window, {element} = tofscope;
 
-  const corner = document.getElementById("tofscope-corner") ?? document.createElement("div");
-  corner.id = "tofscope-corner";
+  const corner = tofscope.overlay("tofscope-corner");
   corner.hidden = true;  // until there is something to say
   corner.replaceChildren();
-  document.body.append(corner);
   const scale = element("div", "scale", corner);
   const bar = element("i", "bar", scale);
   const length = element("span", "length", scale);

@@ -2,9 +2,7 @@
 window.tofscope ??= {};
 {
   const {tofscope} = window;
-  const legend = document.getElementById("tofscope-legend") ?? document.createElement("div");
-  legend.id = "tofscope-legend";
-  document.body.append(legend);
+  const legend = tofscope.overlay("tofscope-legend");
 
   tofscope.legend = {
     // Writes the legend, HTML of one box, or "" for none.

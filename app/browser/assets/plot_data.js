@@ -7,16 +7,6 @@ window.tofscope ??= {};
   const side = name => sides[name] ??= {values: {}, counts: null, stale: false};
   const decoded = text => window.tofscope.bytes(text).buffer;
 
-  // Index of the first frame that is not before `time`.
-  const indexOf = time => {
-    let low = 0, high = times.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (times[middle] < time) low = middle + 1; else high = middle;
-    }
-    return low;
-  };
-
   window.tofscope.plotData = {
     // Begins with a recording, given its times (K,) s.
     begin: text => {
@@ -49,10 +39,7 @@ window.tofscope ??= {};
       if (value === undefined || Number.isNaN(value)) return "–";
       return ((signed && value >= 0 ? "+" : "") + value.toFixed(digits)).replace("-", "−");
     },
-    indexOf,
-    nearest: time => {
-      const k = Math.min(indexOf(time), times.length - 1);
-      return k > 0 && time - times[k - 1] < times[k] - time ? k - 1 : k;
-    },
+    indexOf: time => window.tofscope.indexOf(times, time),
+    nearest: time => window.tofscope.nearest(times, time),
   };
 }

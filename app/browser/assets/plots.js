@@ -2,7 +2,7 @@
 // that seek. The numbers live here, so that none of it asks the server.
 window.tofscope ??= {};
 {
-  const {tofscope} = window, {element: made, plotData: data} = tofscope;
+  const {tofscope} = window, {element: made, once, plotData: data} = tofscope;
   const {roundUp, areaOf, drawAxes, drawPoints, fitted} = tofscope.plotDrawing;
   const ENDS = [1, 1.5, 2, 3, 4, 5, 6, 8, 10];  // of vertical axes, times a power of ten
   const HEIGHT = 58, LABELS = 28, PAIR = 230;  // pixels of plots in the panel
@@ -105,19 +105,6 @@ window.tofscope ??= {};
   const hover = frame => {
     state.hovered = frame;
     mark();
-  };
-
-  // Once before the next picture, however often it is asked for until then.
-  const once = act => {
-    let waiting = false;
-    return () => {
-      if (waiting) return;
-      waiting = true;
-      requestAnimationFrame(() => {
-        waiting = false;
-        act();
-      });
-    };
   };
 
   // Lines, selection and values: all that follows the pointer or the frame, without drawing anew.

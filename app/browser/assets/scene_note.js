@@ -2,10 +2,8 @@
 window.tofscope ??= {};
 {
   const {tofscope} = window, {element} = tofscope;
-  const note = document.getElementById("tofscope-note") ?? document.createElement("div");
-  note.id = "tofscope-note";
+  const note = tofscope.overlay("tofscope-note");
   note.hidden = true;
-  document.body.append(note);
 
   tofscope.note = {
     // `actions` are [text, hint, kind of event, its data].

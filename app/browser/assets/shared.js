@@ -1,4 +1,4 @@
-// What several of our scripts need: elements of the page, and numbers as the session sends them.
+// What several of our scripts need: elements of the page, times, numbers as the session sends them.
 window.tofscope ??= {};
 {
   const {tofscope} = window;
@@ -10,6 +10,42 @@ window.tofscope ??= {};
     made.textContent = text;
     parent?.append(made);
     return made;
+  };
+
+  // The box over the page with an id; the same after a lost connection.
+  tofscope.overlay = id => {
+    const box = document.getElementById(id) ?? document.createElement("div");
+    box.id = id;
+    document.body.append(box);
+    return box;
+  };
+
+  // An action that runs once before the next picture, however often it is asked for until then.
+  tofscope.once = act => {
+    let waiting = false;
+    return () => {
+      if (waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        act();
+      });
+    };
+  };
+
+  // Index of the first of increasing times that is not before `time`; their number if all are.
+  tofscope.indexOf = (times, time) => {
+    let low = 0, high = times.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (times[middle] < time) low = middle + 1; else high = middle;
+    }
+    return low;
+  };
+  // Index of the nearest of increasing times.
+  tofscope.nearest = (times, time) => {
+    const k = Math.min(tofscope.indexOf(times, time), times.length - 1);
+    return k > 0 && time - times[k - 1] < times[k] - time ? k - 1 : k;
   };
 
   // Keeps the height of an element in a property of the page, for what stands above or below.

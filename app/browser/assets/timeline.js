@@ -133,31 +133,25 @@
   });
 
   const seconds = frame => state.times[clip(frame)].toFixed(3);
-  let due = false;
-  const show = () => {
-    if (due) return;
-    due = true;
-    requestAnimationFrame(() => {
-      due = false;
-      const play = find(".play"), time = find(".time"), slider = find(".tracks");
-      const label = state.playing ? "Pause" : "Play";
-      if (play.getAttribute("aria-label") !== label || !play.innerHTML) {
-        play.setAttribute("aria-label", label);
-        play.innerHTML = state.playing ? icons.pause : icons.play;
-      }
-      find("[data-do=loop]").setAttribute("aria-pressed", state.loop);
-      find(".speed").value = String(state.speed);
-      if (document.activeElement !== time) time.value = seconds(state.frame);
-      find(".readout").textContent =
-        `of ${seconds(last())} s · frame ${state.frame} of ${last()}`;
-      const whole = state.first === 0 && state.last === last();
-      find(".range").textContent = whole ? "" : `plays frames ${state.first} to ${state.last}`;
-      slider.setAttribute("aria-valuemax", last());
-      slider.setAttribute("aria-valuenow", state.frame);
-      slider.setAttribute("aria-valuetext", `frame ${state.frame}, ${seconds(state.frame)} s`);
-      tracks.draw();
-    });
-  };
+  const show = tofscope.once(() => {
+    const play = find(".play"), time = find(".time"), slider = find(".tracks");
+    const label = state.playing ? "Pause" : "Play";
+    if (play.getAttribute("aria-label") !== label || !play.innerHTML) {
+      play.setAttribute("aria-label", label);
+      play.innerHTML = state.playing ? icons.pause : icons.play;
+    }
+    find("[data-do=loop]").setAttribute("aria-pressed", state.loop);
+    find(".speed").value = String(state.speed);
+    if (document.activeElement !== time) time.value = seconds(state.frame);
+    find(".readout").textContent =
+      `of ${seconds(last())} s · frame ${state.frame} of ${last()}`;
+    const whole = state.first === 0 && state.last === last();
+    find(".range").textContent = whole ? "" : `plays frames ${state.first} to ${state.last}`;
+    slider.setAttribute("aria-valuemax", last());
+    slider.setAttribute("aria-valuenow", state.frame);
+    slider.setAttribute("aria-valuetext", `frame ${state.frame}, ${seconds(state.frame)} s`);
+    tracks.draw();
+  });
   new ResizeObserver(show).observe(find(".tracks"));
 
   const floats = text => new Float32Array(tofscope.bytes(text).buffer);

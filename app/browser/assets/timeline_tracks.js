@@ -18,15 +18,7 @@ window.tofscope.timelineTracks = (box, state) => {
   tracks.place = at;  // of a frame, in px from the left
   const secondsAt = px => view.start + px / width() * (view.end - view.start);
 
-  tracks.nearest = seconds => {
-    const {times} = state;
-    let low = 0, high = times.length - 1;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (times[middle] < seconds) low = middle + 1; else high = middle;
-    }
-    return low > 0 && seconds - times[low - 1] < times[low] - seconds ? low - 1 : low;
-  };
+  tracks.nearest = seconds => window.tofscope.nearest(state.times, seconds);
 
   const look = (start, span) => {
     const whole = duration(), length = Math.min(span, whole);
