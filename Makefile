@@ -3,7 +3,7 @@
 BIN := .venv/bin
 STAMP := .venv/.set-up
 
-.PHONY: run test fuzz setup samples
+.PHONY: run test fuzz bench bench-compare setup samples
 
 # Open the app; ARGS goes to `tofscope view`, as in: make run ARGS="my_recording.mcap --port 9000"
 run: setup
@@ -21,6 +21,14 @@ test: setup
 # Try thousands of damaged recordings; ARGS as in: make fuzz ARGS="--count 500 --seed 3"
 fuzz: setup
 	OMP_NUM_THREADS=1 $(BIN)/python -m tests.fuzz $(ARGS)
+
+# Measure everything beside the naive pipeline; the table is kept in benchmarks/results.
+bench: setup
+	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.bench
+
+# Compare two of its tables; ARGS as in: make bench-compare ARGS="before.json after.json"
+bench-compare: setup
+	@$(BIN)/python -m benchmarks.compare $(ARGS)
 
 # Everything that run and test need; skipped while nothing has changed.
 setup: $(STAMP)

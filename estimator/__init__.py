@@ -5,6 +5,7 @@ Arrays in, results out; no file, viewer or command line.
 
 from estimator import methods as _built_in  # noqa: F401 (registers the built-in methods)
 from estimator.cloud import Cloud, CloudError, PlainCloud
+from estimator.engines import ENGINES, Engine, current_engine, use_engine
 from estimator.estimate import checked_flow, estimate, estimate_scene_flow
 from estimator.flow import (
     ClusterResult,
@@ -32,6 +33,7 @@ from estimator.stages import Stages
 from estimator.window import LazyFrames, Window, window_of_pair
 
 __all__ = [
+    "ENGINES",
     "ERROR_SYMBOLS",
     "METRIC_INFO",
     "MOVING_SPEED",
@@ -40,6 +42,7 @@ __all__ = [
     "Cloud",
     "CloudError",
     "ClusterResult",
+    "Engine",
     "IcpRound",
     "Label",
     "LazyFrames",
@@ -61,6 +64,7 @@ __all__ = [
     "angles_deg",
     "changed",
     "checked_flow",
+    "current_engine",
     "estimate",
     "estimate_scene_flow",
     "find_method",
@@ -71,6 +75,7 @@ __all__ = [
     "scene_flow_of_points",
     "to_nested",
     "truly_moves",
+    "use_engine",
     "values_of",
     "window_of_pair",
 ]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from estimator.engines import Engine, current_engine
 from estimator.flow import Cluster
 from estimator.parameters import Parameters
 from estimator.window import Window
@@ -14,29 +15,29 @@ def clusters_of(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
     points, so it is fixed. Points that are not finite belong to no cluster. With fewer points than
     HDBSCAN needs there is no cluster.
     """
+    engine = current_engine()
     settings = (
+        engine.name,
         parameters.min_cluster_size,
         parameters.min_samples,
         parameters.allow_single_cluster,
     )
-    return window.stages.get(("clusters", settings), lambda: _clusters(window, parameters))
+    return window.stages.get(("clusters", settings), lambda: _clusters(window, parameters, engine))
 
 
-def _clusters(window: Window, parameters: Parameters) -> tuple[Cluster, ...]:
-    from sklearn.cluster import HDBSCAN
-
+def _clusters(window: Window, parameters: Parameters, engine: Engine) -> tuple[Cluster, ...]:
     source, target = window.source.points, window.target.points
     finite_target = np.flatnonzero(np.isfinite(target).all(axis=1))
     finite_source = np.flatnonzero(np.isfinite(source).all(axis=1))
     merged = np.vstack([target[finite_target], source[finite_source]])
     if len(merged) < max(parameters.min_cluster_size, parameters.min_samples or 1, 2):
         return ()
-    labels = HDBSCAN(
-        min_cluster_size=parameters.min_cluster_size,
-        min_samples=parameters.min_samples,
-        allow_single_cluster=parameters.allow_single_cluster,
-        copy=True,  # pyright: ignore[reportArgumentType] (inferred from a default of "warn")
-    ).fit_predict(merged)
+    labels = engine.labels(
+        merged,
+        parameters.min_cluster_size,
+        parameters.min_samples,
+        parameters.allow_single_cluster,
+    )
     labels_target, labels_source = np.split(labels, [len(finite_target)])
     return tuple(
         Cluster(

@@ -124,7 +124,7 @@ class ClusterResult(ReadOnlyArrays):
     @property
     def removed(self) -> Indices:
         """Indices of the source points that were removed as inliers."""
-        return np.setdiff1d(self.source, self.remaining)
+        return without(self.source, self.remaining)
 
 
 @dataclass(frozen=True)
@@ -147,6 +147,14 @@ class SceneFlow(ReadOnlyArrays):
     def moving(self) -> NDArray[np.bool_]:
         """(N,) whether a source point has a flow."""
         return self.label == Label.MOVING
+
+
+def without(indices: Indices, removed: Indices) -> Indices:
+    """Ascending indices less those that are removed, which are among them."""
+    kept = np.zeros(indices[-1] + 1 if len(indices) else 0, dtype=np.bool_)
+    kept[indices] = True
+    kept[removed] = False
+    return np.flatnonzero(kept)
 
 
 def cluster_result(

@@ -9,10 +9,16 @@ Choices where the paper leaves something open; those that users may want to chan
 - V belongs to the remaining points; removed inliers did not move and are Stationary.
 """
 
-import numpy as np
-
 from estimator.clustering import Cluster, clusters_of
-from estimator.flow import ClusterResult, IcpRound, Label, SceneFlow, cluster_result, scene_flow
+from estimator.flow import (
+    ClusterResult,
+    IcpRound,
+    Label,
+    SceneFlow,
+    cluster_result,
+    scene_flow,
+    without,
+)
 from estimator.method import Method
 from estimator.parameters import Parameters
 from estimator.rounds import THRESHOLDS, USED, icp_round, too_few_points
@@ -54,8 +60,8 @@ def classify(cluster: Cluster, window: Window, parameters: Parameters) -> Cluste
         if len(current.inlier_source) == 0:
             reason = "no point is near enough to the other cloud to be paired"
             return cluster_result(cluster, source, rounds, Label.UNASSIGNED, reason)
-        source = np.setdiff1d(source, current.inlier_source)  # 20-21
-        target = np.setdiff1d(target, current.inlier_target)
+        source = without(source, current.inlier_source)  # 20-21
+        target = without(target, current.inlier_target)
 
     reason = f"fitness not above γ {gamma:g} in {MAX_ROUNDS} rounds"
     return cluster_result(cluster, source, rounds, Label.UNASSIGNED, reason)

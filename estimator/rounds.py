@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from estimator.engines import Engine, current_engine
 from estimator.flow import IcpRound, Indices
-from estimator.icp import align
 from estimator.parameters import PARAMETER_INFO, Parameters
 from estimator.window import Window
 
@@ -40,17 +40,19 @@ def icp_round(
     Returns:
         The round, and D^C (len(source), 3) in metres.
     """
-    reach = parameters.max_correspondence_distance
+    reach, engine = parameters.max_correspondence_distance, current_engine()
     current = window.stages.get(
-        ("icp", reach, source.tobytes(), target.tobytes()),
-        lambda: _round(source, target, window, reach),
+        ("icp", engine.name, reach, source.tobytes(), target.tobytes()),
+        lambda: _round(source, target, window, reach, engine),
     )
     return current, _displacement(window.source.points[source], current.transformation)
 
 
-def _round(source: Indices, target: Indices, window: Window, reach: float) -> IcpRound:
+def _round(
+    source: Indices, target: Indices, window: Window, reach: float, engine: Engine
+) -> IcpRound:
     points = window.source.points[source]
-    icp = align(points, window.target.points[target], reach)
+    icp = engine.align(points, window.target.points[target], reach)
     displacement = _displacement(points, icp.transformation)
     return IcpRound(
         source_size=len(source),

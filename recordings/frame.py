@@ -69,6 +69,7 @@ class Provenance:
         command: the command that reproduces the recording.
         imperfections: names of the simulated imperfections.
         rig: name of the rig, "" in older files; the rig itself is the file's attachment rig.toml.
+        repeated: what was repeated to make it longer than its simulation, "" for nothing.
     """
 
     simulated: bool
@@ -80,6 +81,7 @@ class Provenance:
     command: str
     imperfections: tuple[str, ...] = ()
     rig: str = ""
+    repeated: str = ""
 
     @property
     def experiment(self) -> str:

@@ -49,6 +49,11 @@ def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
         RecordingError: there are too many frames.
     """
     period = _period(stamps)
+    span = math.floor(0.5 * period)
+    if _one_frame_each(stamps, span):
+        _check_size(len(stamps[0]), len(stamps))
+        rows = np.arange(len(stamps[0]))[:, None]
+        return FrameTable(stamps[0], np.repeat(rows, len(stamps), axis=1), period, 0)
     stamp = np.concatenate(stamps)
     sensor = np.concatenate([np.full(len(s), n) for n, s in enumerate(stamps)])
     message = np.concatenate([np.arange(len(s)) for s in stamps])
@@ -56,12 +61,8 @@ def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
 
     stamp, sensor, message = stamp[order], sensor[order], message[order]
 
-    first = _first_of_frames(stamp.tolist(), math.floor(0.5 * period))
-    if len(first) * len(stamps) > MOST_READINGS:
-        raise RecordingError(
-            f"The stamps of {len(stamps)} sensors make {len(first)} frames, and there may be "
-            f"{MOST_READINGS} readings; give the file in parts."
-        )
+    first = _first_of_frames(stamp.tolist(), span)
+    _check_size(len(first), len(stamps))
     frame = np.repeat(np.arange(len(first)), np.diff([*first, len(stamp)]))
     table = np.full((len(first), len(stamps)), -1, dtype=np.int64)
     table[frame, sensor] = message  # of several the last
@@ -78,6 +79,24 @@ def frame_table(stamps: list[NDArray[np.int64]]) -> FrameTable:
     )
 
 
+def _one_frame_each(stamps: list[NDArray[np.int64]], span: int) -> bool:
+    """Whether all sensors have the same stamps, each further than `span` ns after the one before.
+
+    So it is in a file of ours; then nothing has to be sorted.
+    """
+    first = stamps[0]
+    same = all(np.array_equal(first, others) for others in stamps[1:])
+    return same and len(first) > 0 and bool((np.diff(first) > span).all())
+
+
+def _check_size(frames: int, sensors: int) -> None:
+    if frames * sensors > MOST_READINGS:
+        raise RecordingError(
+            f"The stamps of {sensors} sensors make {frames} frames, and there may be "
+            f"{MOST_READINGS} readings; give the file in parts."
+        )
+
+
 def _first_of_frames(stamps: list[int], span: int) -> list[int]:
     """Index of the first message of each frame, which holds those up to `span` ns later."""
     first: list[int] = []
@@ -90,6 +109,8 @@ def _first_of_frames(stamps: list[int], span: int) -> list[int]:
 
 def _period(stamps: list[NDArray[np.int64]]) -> float:
     """Median time between distinct stamps of a sensor, 0 where there are none."""
+    if all(np.array_equal(stamps[0], others) for others in stamps[1:]):
+        stamps = stamps[:1]
     gaps = np.concatenate([np.diff(np.sort(s)) for s in stamps])
     gaps = gaps[gaps > 0]
     return float(np.median(gaps)) if len(gaps) else 0.0

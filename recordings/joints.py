@@ -1,6 +1,6 @@
 """Joint positions at the frames of a recording."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,11 +8,16 @@ from numpy.typing import NDArray
 from recordings.contents import Topic, Use
 from recordings.decoding import Decoder
 from recordings.errors import few
+from recordings.joints_nearby import JointsNearby
+from recordings.nearby import Column, FramePlaces, known_at
 from recordings.tracks import Stamps, vector_track
 from robot_assets import JointMatch, Robot
 
 _FIRST_MESSAGES = 50  # enough to see both kinds in a stream that mixes arm and gripper
 _NOT_MEASURED = ("desired", "command", "target", "goal")
+
+Positions = NDArray[np.float64] | Column
+"""Positions (K,) of a joint at the frames, rad or m."""
 
 
 def joint_names(topics: list[Topic], decoder: Decoder) -> list[str]:
@@ -25,9 +30,16 @@ def joint_names(topics: list[Topic], decoder: Decoder) -> list[str]:
 
 
 def joint_positions(
-    topics: list[Topic], decoder: Decoder, match: JointMatch, stamps: Stamps
-) -> tuple[dict[str, NDArray[np.float64]], list[str]]:
+    topics: list[Topic],
+    decoder: Decoder,
+    match: JointMatch,
+    stamps: Stamps,
+    places: FramePlaces | None = None,
+) -> tuple[dict[str, Positions], list[str]]:
     """Read the positions of a robot's joints at given stamps.
+
+    Those of a topic with many messages in a long recording are read where they are asked for; see
+    `JointsNearby`.
 
     Of several topics with the same joint, measured positions are preferred to desired ones, then
     the topic with the most joints.
@@ -37,15 +49,19 @@ def joint_positions(
         decoder: of the file.
         match: of recorded names to joints.
         stamps: (K,) nanoseconds.
+        places: of the frames of a long recording, whose stamps these are.
 
     Returns:
         {joint: (K,) rad or m, NaN where the recording does not cover the stamp}, and warnings
         about topics with the same joints.
     """
-    found = {
-        topic.name: _of_topic(topic, decoder, match, stamps) for topic in _joint_topics(topics)
-    }
-    positions: dict[str, NDArray[np.float64]] = {}
+    found: dict[str, dict[str, Positions]] = {}
+    for topic in _joint_topics(topics):
+        if places and places.is_long(topic.channel):
+            found[topic.name] = dict(JointsNearby(topic, places, match).columns())
+        else:
+            found[topic.name] = dict(_of_topic(topic, decoder, match, stamps))
+    positions: dict[str, Positions] = {}
     unused: list[str] = []
     for name in sorted(found, key=lambda name: (_is_not_measured(name), -len(found[name]))):
         if set(found[name]) & set(positions):
@@ -77,23 +93,26 @@ def matched(robot: Robot, names: list[str]) -> tuple[JointMatch, list[str]]:
     return match, warnings
 
 
-def beyond_limits(robot: Robot, positions: dict[str, NDArray[np.float64]]) -> list[str]:
+def beyond_limits(robot: Robot, positions: Mapping[str, Positions]) -> list[str]:
     """Warnings about joints beyond their limits, at each joint's position furthest from its median.
+
+    Of joints that are read where they are asked for, the first and the last chunks are looked at.
 
     Args:
         robot: the robot.
         positions: {joint: (K,)} as recorded.
     """
+    looked_at = {j: v.ends if isinstance(v, Column) else v for j, v in positions.items()}
     extremes = {
         joint: float(values[np.nanargmax(np.abs(values - np.nanmedian(values)))])
-        for joint, values in positions.items()
+        for joint, values in looked_at.items()
         if np.isfinite(values).any()
     }
     return robot.outside_limits(extremes)
 
 
 def unknown_joints(
-    robot: Robot, positions: dict[str, NDArray[np.float64]], placed: Iterable[str]
+    robot: Robot, positions: Mapping[str, Positions], placed: Iterable[str]
 ) -> list[str]:
     """Warnings about joints without a position, and their effect on the robot.
 
@@ -102,7 +121,8 @@ def unknown_joints(
         positions: {joint: (K,)} as recorded.
         placed: links with a pose in /tf.
     """
-    known = {j for j, values in positions.items() if np.isfinite(values).any()}
+    at_frames = {joint: known_at(values) for joint, values in positions.items()}
+    known = {joint for joint, frames in at_frames.items() if frames.any()}
     if not known:
         return []
     warnings: list[str] = []
@@ -111,9 +131,8 @@ def unknown_joints(
         lost = [link for link in robot.links if link not in found]
         what = f"{few(lost)} cannot be placed" if lost else "it is taken to be at rest"
         warnings.append(f"The recording has no position of {few(missing)}; {what}.")
-    sometimes = sum(not np.isfinite(values).all() for j, values in positions.items() if j in known)
-    if sometimes:
-        frames = int(max((~np.isfinite(positions[j])).sum() for j in known))
+    frames = int(max((~at_frames[joint]).sum() for joint in known))
+    if frames:
         warnings.append(
             f"Joint positions are not known at {frames} frames; the robot is not placed there, "
             "and its body not removed."

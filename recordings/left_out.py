@@ -13,6 +13,7 @@ class LeftOut:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._told: dict[tuple[str, str], tuple[str, set[int]]] = {}
+        self._chunks: set[int] = set()
 
     def add(self, topic: str, number: int, reason: str) -> None:
         """Note a message by its number in the file; the same one counts once.
@@ -25,16 +26,27 @@ class LeftOut:
                 key, reason = (topic, ""), "there are further reasons"
             self._told.setdefault(key, (reason, set()))[1].add(number)
 
+    def add_chunk(self, start: int) -> None:
+        """Note a broken chunk of a long file by its offset; the same one counts once."""
+        with self._lock:
+            self._chunks.add(start)
+
     def sentences(self) -> list[str]:
         """A sentence for each topic and reason, with the number of messages."""
         with self._lock:
-            return [
+            told = [
                 _sentence(topic, reason, numbers)
                 for (topic, _), (reason, numbers) in self._told.items()
             ]
+            return [broken_pieces(len(self._chunks)), *told] if self._chunks else told
 
     def _count(self, topic: str) -> int:
         return sum(of == topic for of, _ in self._told)
+
+
+def broken_pieces(count: int) -> str:
+    """Sentence about parts of a file that cannot be read."""
+    return f"Broken pieces of the file, {count} of them, are left out."
 
 
 def _sentence(topic: str, reason: str, numbers: set[int]) -> str:

@@ -17,9 +17,10 @@ from recordings.mcap_records import RECORD_HEAD
 MESSAGE_HEAD = struct.Struct("<HIQQ")
 """Channel, sequence, log time, publish time."""
 UNCHUNKED = -1
-_INDEX_HEAD = struct.Struct("<HI")
+INDEX_HEAD = struct.Struct("<HI")
 """Channel, and bytes of the entries."""
-_LATEST = 2**63 - 1  # log times are unsigned in the file, and signed here
+LATEST = 2**63 - 1
+"""Log times are unsigned in the file, and signed here."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,18 @@ class MessageTable:
 
     def __len__(self) -> int:
         return len(self.log_time)
+
+    def place(self, index: int) -> tuple[int, int]:
+        """Offset of a message's chunk in the file, -1 without, and of the message in it."""
+        return int(self.chunk[index]), int(self.offset[index])
+
+    def number_of(self, index: int) -> int:
+        """Number of a message in the file."""
+        return int(self.number[index])
+
+    def whole(self) -> "MessageTable":
+        """The table itself, which is in memory."""
+        return self
 
     def within_chunks(self, count: int) -> int:
         """How many messages come before those of further chunks than so many."""
@@ -93,13 +106,13 @@ class Contents:
 
     def add_message(self, channel: int, log_time: int, chunk: int, offset: int) -> None:
         """Add the location of a message."""
-        self._of(channel).extend((min(log_time, _LATEST), chunk, offset))
+        self._of(channel).extend((min(log_time, LATEST), chunk, offset))
 
     def add_index(self, record: bytes, chunk: int) -> None:
         """Add a message index: the locations of the messages of one channel in a chunk."""
-        channel, length = _INDEX_HEAD.unpack_from(record)
-        entries = np.frombuffer(record, "<u8", 2 * (length // 16), _INDEX_HEAD.size).reshape(-1, 2)
-        entries = np.minimum(entries, _LATEST).astype(np.int64)
+        channel, length = INDEX_HEAD.unpack_from(record)
+        entries = np.frombuffer(record, "<u8", 2 * (length // 16), INDEX_HEAD.size).reshape(-1, 2)
+        entries = np.minimum(entries, LATEST).astype(np.int64)
         rows = np.column_stack((entries[:, 0], np.full(len(entries), chunk), entries[:, 1]))
         self._of(channel).frombytes(rows.tobytes())
 
@@ -173,20 +186,24 @@ def _channel_info(channel: Channel, contents: Contents) -> ChannelInfo:
     )
 
 
-def merged_channels(
-    contents: Contents,
-) -> tuple[tuple[ChannelInfo, ...], dict[int, MessageTable]]:
-    """Channels with tables of their messages; those of one topic and type are merged."""
+def merged_channels(contents: Contents) -> tuple[tuple[ChannelInfo, ...], dict[int, list[int]]]:
+    """Channels, those of one topic and type merged into one; and {its number: all numbers}."""
     channels: dict[tuple[str, str, str], ChannelInfo] = {}
-    locations: dict[int, array[int]] = {}
+    numbers: dict[int, list[int]] = {}
     for channel in contents.channels.values():
         info = _channel_info(channel, contents)
         kind = (info.topic, info.encoding, info.schema_name)
         first = channels.setdefault(kind, info)
-        locations.setdefault(first.id, array("q")).extend(
-            contents.locations.get(channel.id, array("q"))
-        )
-    return tuple(channels.values()), {i: _table(places) for i, places in locations.items()}
+        numbers.setdefault(first.id, []).append(channel.id)
+    return tuple(channels.values()), numbers
+
+
+def message_table(contents: Contents, channels: list[int]) -> MessageTable:
+    """Table of the messages of one or more channels."""
+    locations = array("q")
+    for channel in channels:
+        locations.extend(contents.locations.get(channel, array("q")))
+    return _table(locations)
 
 
 def _table(locations: "array[int]") -> MessageTable:

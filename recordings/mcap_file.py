@@ -14,14 +14,18 @@ from mcap.opcode import Opcode
 from mcap.records import Attachment, Metadata
 from numpy.typing import NDArray
 
+from recordings.chunk_indexes import ChunkedTable
 from recordings.chunks import chunk_data
 from recordings.errors import BrokenFileError, RecordingError
+from recordings.log_times import log_times
 from recordings.mcap_contents import (
+    INDEX_HEAD,
     MESSAGE_HEAD,
     UNCHUNKED,
     ChannelInfo,
     MessageTable,
     merged_channels,
+    message_table,
 )
 from recordings.mcap_index import index_of
 from recordings.mcap_records import BROKEN, RECORD_HEAD, RecordFile, broken_text
@@ -40,6 +44,9 @@ class McapFile:
         path: the file.
         salvage: ignore the file's index, scan it, and leave broken chunks out.
 
+    Attributes:
+        long: whether its tables are `ChunkedTable`.
+
     Raises:
         RecordingError: the file does not exist or is not MCAP.
         BrokenFileError: it is broken.
@@ -51,17 +58,24 @@ class McapFile:
         self._chunks: OrderedDict[int, bytes] = OrderedDict()
         self._file = RecordFile(path)
         try:
-            contents = index_of(self._file, salvage)
-            self.channels, self._tables = merged_channels(contents)
+            contents, indexes = index_of(self._file, salvage)
+            self.channels, numbers = merged_channels(contents)
+            self._tables: dict[int, MessageTable | ChunkedTable] = {
+                number: message_table(contents, merged)
+                if indexes is None
+                else indexes.table(merged, self._message_index)
+                for number, merged in numbers.items()
+            }
         except BROKEN as error:
             self._file.close()
             raise BrokenFileError(f"{path} is a broken MCAP file: {broken_text(error)}.") from error
+        self.long = indexes is not None
         self.cut_short = contents.cut_short
         self.broken_chunks = contents.broken_chunks
         self._metadata = contents.metadata
         self._attachments = contents.attachments
 
-    def table(self, channel: ChannelInfo) -> MessageTable:
+    def table(self, channel: ChannelInfo) -> MessageTable | ChunkedTable:
         """Locations of a channel's messages."""
         return self._tables[channel.id]
 
@@ -81,9 +95,8 @@ class McapFile:
             BrokenFileError: the file is broken there.
             RecordingError: the file cannot be read any more, or is closed.
         """
-        table = self._tables[channel.id]
-        chunk, offset = int(table.chunk[index]), int(table.offset[index])
         with self._in_words(channel, index):
+            chunk, offset = self._tables[channel.id].place(index)
             with self._lock:
                 if chunk == UNCHUNKED:
                     self._file.check_open()
@@ -93,6 +106,50 @@ class McapFile:
             start = offset + RECORD_HEAD.size
             return data[start + MESSAGE_HEAD.size : start + length]
 
+    def piece(self, channel: ChannelInfo, piece: int) -> list[bytes]:
+        """Payloads of the messages of a channel in one chunk of a long file, by its piece.
+
+        Raises:
+            BrokenFileError, RecordingError: as in `message`.
+        """
+        table = self._tables[channel.id]
+        assert isinstance(table, ChunkedTable)
+        with self._in_words(channel, int(table.first[piece])):
+            offsets = table.entries(piece)[:, 1].tolist()
+            with self._lock:
+                data = self._chunk(table.chunk_start(piece))
+            begin = RECORD_HEAD.size + MESSAGE_HEAD.size
+            ends = [at + RECORD_HEAD.size + RECORD_HEAD.unpack_from(data, at)[1] for at in offsets]
+            return [data[at + begin : end] for at, end in zip(offsets, ends, strict=True)]
+
+    def log_times(self, channels: Sequence[ChannelInfo]) -> list[NDArray[np.int64]]:
+        """Log times (N,) of all messages of several channels, without reading any of them.
+
+        Raises:
+            BrokenFileError: the file's index is broken.
+        """
+        tables = [self._tables[channel.id] for channel in channels]
+        chunked = [table for table in tables if isinstance(table, ChunkedTable)]
+        if len(chunked) < len(tables):
+            return [table.log_time for table in tables]
+        try:
+            with self._lock:
+                return log_times(chunked, self._file.content)
+        except BROKEN as error:
+            raise BrokenFileError(f"{self.path} is broken: {broken_text(error)}.") from error
+
+    def _message_index(self, offset: int, length: int) -> bytes:
+        """Content of the message index at an offset; ValueError unless it has that length."""
+        with self._lock:
+            self._file.check_open()
+            head = RECORD_HEAD.size
+            record = self._file.content(offset, head + length)
+        if RECORD_HEAD.unpack_from(record) != (Opcode.MESSAGE_INDEX, length):
+            raise ValueError("a message index is not where it should be")
+        if INDEX_HEAD.unpack_from(record, head)[1] != length - INDEX_HEAD.size:
+            raise ValueError("a message index does not have the length that it says")
+        return record[head:]
+
     @contextmanager
     def _in_words(self, channel: ChannelInfo, index: int) -> Iterator[None]:
         """Context that turns errors of reading a message into those of `message`."""
@@ -101,7 +158,7 @@ class McapFile:
         except OSError as error:
             raise RecordingError(f"{self.path} cannot be read: {error.strerror}.") from error
         except BROKEN as error:
-            number = self._tables[channel.id].number[index]
+            number = self._tables[channel.id].number_of(index)
             place = f"message {number} of {channel.topic}"
             text = f"{self.path} is broken at {place}: {broken_text(error)}."
             raise BrokenFileError(text) from error
@@ -140,7 +197,7 @@ class McapFile:
         Raises:
             BrokenFileError, RecordingError: as in `message`.
         """
-        tables = [self._tables[channel.id] for channel in channels]
+        tables = [self._tables[channel.id].whole() for channel in channels]
         starts = [np.zeros((len(table), size), dtype=np.uint8) for table in tables]
         whole = [np.zeros(len(table), dtype=bool) for table in tables]
         chunk = np.concatenate([table.chunk for table in tables] or [np.zeros(0, np.int64)])
@@ -150,15 +207,14 @@ class McapFile:
         for group in np.split(order, np.flatnonzero(np.diff(chunk[order])) + 1):
             for n in np.unique(of[group]).tolist():
                 rows = row[group[of[group] == n]]
-                found = self._starts(channels[n], rows, size)
+                found = self._starts(channels[n], tables[n], rows, size)
                 starts[n][rows], whole[n][rows] = found
         return list(zip(starts, whole, strict=True))
 
     def _starts(
-        self, channel: ChannelInfo, rows: NDArray[np.int64], size: int
+        self, channel: ChannelInfo, table: MessageTable, rows: NDArray[np.int64], size: int
     ) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
         """First bytes of some messages of a channel, all in the same chunk or in none."""
-        table = self._tables[channel.id]
         chunk = int(table.chunk[rows[0]])
         if chunk == UNCHUNKED:
             payloads = [self.message(channel, row)[:size] for row in rows.tolist()]

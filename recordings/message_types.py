@@ -1,12 +1,11 @@
 """Fields that messages of each type must have to be used."""
 
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
-from rosbags.typesys import Stores, get_typestore
-from rosbags.typesys.store import Typestore
+if TYPE_CHECKING:
+    from rosbags.typesys.store import Typestore
 
-STANDARD = get_typestore(Stores.ROS2_HUMBLE)
-"""The standard types of ROS 2."""
 _STAMP = ("header.stamp.sec", "header.stamp.nanosec")
 _HEADER = (*_STAMP, "header.frame_id")
 _NEEDED = {
@@ -43,7 +42,15 @@ _NEEDED = {
 }
 
 
-def misfit(store: Typestore, schema_name: str) -> str:
+@cache
+def standard_types() -> "Typestore":
+    """The standard types of ROS 2."""
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+def misfit(store: "Typestore", schema_name: str) -> str:
     """Why messages of a schema cannot be used as what its name says; "" where they can.
 
     A schema may have further fields, in any order but for the header, which must come first: stamps
@@ -54,8 +61,9 @@ def misfit(store: Typestore, schema_name: str) -> str:
         schema_name: such as sensor_msgs/msg/Image.
     """
     needed = _NEEDED.get(schema_name.replace("/msg/", "/"), ())
+    standard = standard_types()
     for path in needed:
-        found, wanted = _leaf(store, schema_name, path), _leaf(STANDARD, schema_name, path)
+        found, wanted = _leaf(store, schema_name, path), _leaf(standard, schema_name, path)
         if found is None:
             return f"it has no field {path}"
         if found != wanted:
@@ -66,7 +74,7 @@ def misfit(store: Typestore, schema_name: str) -> str:
     return ""
 
 
-def _leaf(store: Typestore, kind: str, path: str) -> tuple[Any, ...] | None:
+def _leaf(store: "Typestore", kind: str, path: str) -> tuple[Any, ...] | None:
     """Type at the end of a path of fields, with the sequences on the way; None without it."""
     way: list[Any] = []
     name, *rest = path.split(".")
@@ -84,7 +92,7 @@ def _leaf(store: Typestore, kind: str, path: str) -> tuple[Any, ...] | None:
     return None if further is None else (*way, *further)
 
 
-def _first_leaves(store: Typestore, kind: str, count: int) -> list[str]:
+def _first_leaves(store: "Typestore", kind: str, count: int) -> list[str]:
     """Paths of the first basic fields of a type."""
     paths: list[str] = []
     for name, (node, content) in _fields(store, kind).items():
@@ -95,6 +103,6 @@ def _first_leaves(store: Typestore, kind: str, count: int) -> list[str]:
     return paths[:count]
 
 
-def _fields(store: Typestore, kind: str) -> dict[str, Any]:
+def _fields(store: "Typestore", kind: str) -> dict[str, Any]:
     """{field: its description} of a type; empty where the store lacks it."""
     return dict(store.fielddefs[kind][1]) if kind in store.fielddefs else {}

@@ -7,6 +7,7 @@ from pathlib import Path
 from recordings.contents import Topic, Use, topics_of
 from recordings.decoding import Decoder
 from recordings.errors import BrokenFileError, RecordingError
+from recordings.frame import Provenance
 from recordings.frame_table import FrameTable, frame_table
 from recordings.grids import SIZES
 from recordings.joints import (
@@ -16,7 +17,9 @@ from recordings.joints import (
     matched,
     unknown_joints,
 )
+from recordings.left_out import broken_pieces
 from recordings.mcap_file import McapFile
+from recordings.nearby import FramePlaces
 from recordings.object_meshes import TrueObjects, object_meshes
 from recordings.object_truth import object_truth, point_truths
 from recordings.placing import chosen_fixed_frame, unplaced_sensors
@@ -33,7 +36,7 @@ from recordings.sensors import (
     rig_sensors,
     unfit_intrinsics,
 )
-from recordings.transforms import read_transforms
+from recordings.transforms import TransformTree, read_transforms
 from robot_assets import Rig, Robot, Sensor, load_rig, load_robot
 
 _COMPLETE = 0.9  # mean share of the sensors in a frame, below which there is a warning
@@ -107,13 +110,14 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     if not found:
         nothing = _nothing_to_estimate_from(file, topics)
         raise RecordingError(" ".join([nothing, *_about_pieces(file), *damaged]))
-    if rig is not None:
-        _check_rig(file, rig, found)
+    _check_rig(file, rig, found)
     if not decoder.has_stamp_index:
         decoder.read_stamps(t.channel for t in topics if t.use in (Use.DEPTH, Use.STATUS))
     streams = [depth_stream(topic, sensor, topics, decoder) for topic, sensor, _ in found]
-    table = frame_table([decoder.header_stamps(topic.channel) for topic, _, _ in found])
-    tree, warnings = read_transforms(topics, decoder, table.stamps)
+    channels = [topic.channel for topic, _, _ in found]
+    table = frame_table([decoder.header_stamps(channel) for channel in channels])
+    places = FramePlaces(file, decoder, table, channels) if file.long else None
+    tree, warnings = read_transforms(topics, decoder, table.stamps, places)
     warnings += (
         damaged
         + about_rig
@@ -139,7 +143,7 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
         match, more = matched(robot, names)
         in_tree = link_frames(robot, match.prefix, tree.frames)
         fixed = chosen_fixed_frame(chosen.fixed_frame, file, tree, frames, robot, in_tree)
-        positions, doubled = joint_positions(topics, decoder, match, table.stamps)
+        positions, doubled = joint_positions(topics, decoder, match, table.stamps, places)
         warnings += more + doubled + beyond_limits(robot, positions)
         placed = [link for link, frame in in_tree.items() if frame in tree.frames]
         warnings += unknown_joints(robot, positions, placed)
@@ -147,12 +151,13 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
     poses = SensorPoses(frames, tree, fixed, by_rig, robot_poses, len(table.stamps))
     warnings += unplaced_sensors(file, found, tree, fixed, by_rig, robot, rig, damaged)
 
-    truth, more = object_truth(topics, decoder, table.stamps, tree, fixed, chosen.truth_frame)
+    truth, more = object_truth(
+        topics, decoder, table.stamps, tree, fixed, chosen.truth_frame, places
+    )
     warnings += more
     points, more = point_truths(topics, decoder, table, tree, fixed)
     warnings += more
-    meshes, more = object_meshes(file) if provenance is not None else ({}, [])
-    warnings += more
+    objects, more = _true_objects(file, provenance, tree, fixed)
     return Recording(
         Parts(
             file=file,
@@ -163,14 +168,22 @@ def _open(file: McapFile, chosen: _Chosen) -> Recording:
             robot=robot_poses,
             truth=truth,
             point_truths=points,
-            objects=TrueObjects(meshes, tree, fixed),
+            objects=objects,
             fixed_frame=fixed,
             truth_frame=chosen.truth_frame,
             provenance=provenance,
             rig=own_rig,
-            warnings=tuple(warnings),
+            warnings=(*warnings, *more),
         )
     )
+
+
+def _true_objects(
+    file: McapFile, provenance: Provenance | None, tree: TransformTree, fixed: str
+) -> tuple[TrueObjects, list[str]]:
+    """Moving objects of a simulation, none in other files, and warnings."""
+    meshes, warnings = object_meshes(file) if provenance is not None else ({}, [])
+    return TrueObjects(meshes, tree, fixed), warnings
 
 
 def _about_file(file: McapFile, decoder: Decoder, table: FrameTable, sensors: int) -> list[str]:
@@ -180,6 +193,12 @@ def _about_file(file: McapFile, decoder: Decoder, table: FrameTable, sensors: in
         warnings.append(
             "The file's index of stamps does not fit its messages; it is not used, and their "
             "headers are read."
+        )
+    if decoder.arrival_error:
+        warnings.append(
+            f"The recording is long and has no index of stamps: times of arrival serve, which in a "
+            f"sample differ from those in the messages by up to {1e3 * decoder.arrival_error:.1f} "
+            f"ms."
         )
     if table.completeness < _COMPLETE:
         warnings.append(
@@ -195,7 +214,7 @@ def _about_pieces(file: McapFile) -> list[str]:
     if file.cut_short:
         warnings.append("The file is cut short; what it holds up to there is used.")
     if file.broken_chunks:
-        warnings.append(f"Broken pieces of the file, {file.broken_chunks} of them, are left out.")
+        warnings.append(broken_pieces(file.broken_chunks))
     return warnings
 
 
@@ -210,9 +229,11 @@ def _nothing_to_estimate_from(file: McapFile, topics: list[Topic]) -> str:
 
 
 def _check_rig(
-    file: McapFile, rig: Rig, found: list[tuple[Topic, RecordedSensor, Sensor | None]]
+    file: McapFile, rig: Rig | None, found: list[tuple[Topic, RecordedSensor, Sensor | None]]
 ) -> None:
     """Raise RecordingError where images of a rig's sensor have another size than the rig's."""
+    if rig is None:
+        return
     model = rig.model
     for topic, _, in_rig in found:
         if in_rig is not None and topic.grid is not None and not model.delivers(*topic.grid):

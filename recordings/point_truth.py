@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from recordings.cloud import Cloud
 from recordings.contents import TRUTH_FIELDS, Topic
 from recordings.decoding import Decoder
 from recordings.errors import MisfitError
 from recordings.floats import as_doubles
+from recordings.nearby import Column
 from recordings.point_clouds import fields_of
 from recordings.tracks import FARTHEST, Stamps
 from recordings.transforms import Transform, inverse
@@ -52,7 +52,7 @@ class PointTruths:
         stamps: (K,) nanoseconds of the frames.
         tolerance: largest difference between a message's stamp and a frame's, nanoseconds.
         poses: gives the poses (K, 4, 4) of an object, by its number, at the frames, NaN where
-            unknown; None for one without.
+            unknown, or a `Column` of them; None for one without.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class PointTruths:
         decoder: Decoder,
         stamps: Stamps,
         tolerance: float,
-        poses: Callable[[int], NDArray[np.float64] | None],
+        poses: Callable[[int], NDArray[np.float64] | Column | None],
     ) -> None:
         self._topic, self._decoder = topic, decoder
         self._poses = lru_cache(maxsize=_CACHED_OBJECTS)(poses)
@@ -118,9 +118,10 @@ class PointTruths:
     def _pose_change(self, number: int, source_k: int, target_k: int) -> Transform | None:
         """Motion (4, 4) of an object from the source to the target frame, None where unknown."""
         poses = self._poses(number)
-        if poses is None or not np.isfinite(poses[[source_k, target_k]]).all():
+        if poses is None:
             return None
-        return poses[target_k] @ inverse(poses[source_k])
+        motion = poses[target_k] @ inverse(poses[source_k])
+        return motion if np.isfinite(motion).all() else None
 
     def _integrated(self, number: int, source_k: int, target_k: int) -> Transform:
         """Motion (4, 4) by the twists of the frames in which the object is seen."""
@@ -213,6 +214,8 @@ def _rows_by_zone(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.in
 
 
 def _rows_by_position(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
+    from scipy.spatial import KDTree
+
     points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
     real = np.flatnonzero(np.isfinite(points).all(axis=1))
     if len(real) == 0 or len(cloud.points) == 0:

@@ -7,7 +7,7 @@ from recordings.frame import Provenance
 from recordings.mcap_file import McapFile
 
 PROVENANCE_RECORD = "tofscope"
-_OPTIONAL = ("imperfections", "rig")
+_OPTIONAL = ("imperfections", "rig", "repeated")
 
 
 def provenance_of(file: McapFile) -> Provenance | None:
@@ -30,6 +30,7 @@ def provenance_of(file: McapFile) -> Provenance | None:
             command=record["command"],
             imperfections=tuple(record.get("imperfections", "").split()),
             rig=record.get("rig", ""),
+            repeated=record.get("repeated", ""),
         )
     except (KeyError, ValueError) as error:
         names = ", ".join(f.name for f in fields(Provenance) if f.default is MISSING)

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from recordings.nearby import Column, known_at
 from recordings.transforms import Transform, TransformTree, inverse
 from robot_assets import Robot
 
@@ -27,7 +28,7 @@ class RobotPoses:
     def __init__(
         self,
         robot: Robot,
-        positions: dict[str, NDArray[np.float64]],
+        positions: Mapping[str, NDArray[np.float64] | Column],
         tree: TransformTree,
         fixed_frame: str,
         link_frames: Mapping[str, str] | None = None,
@@ -65,9 +66,9 @@ class RobotPoses:
         """(K,) whether a link's pose relative to the base is known by the joints."""
         known = np.zeros(frames, dtype=bool)
         for position in self._positions.values():
-            known |= np.isfinite(position)
+            known |= known_at(position)
         for joint in self.robot.joints_placing(link):
-            known &= np.isfinite(self._positions[joint]) if joint in self._positions else False
+            known &= known_at(self._positions[joint]) if joint in self._positions else False
         return known
 
     def _link_poses(self, k: int) -> dict[str, Transform]:

@@ -4,10 +4,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from recordings.frame import PointTruth
-from recordings.message_types import STANDARD
+from recordings.message_types import standard_types
 from robot_assets import SensorModel
 
 _POINT_FIELDS = (
@@ -25,12 +24,12 @@ _POINT_FIELD_TYPES = {"u1": 2, "u2": 4, "f4": 7}
 
 def schema_text(kind: str) -> bytes:
     """Definition of a type such as "sensor_msgs/msg/Image", with the types that it uses."""
-    return STANDARD.generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
+    return standard_types().generate_msgdef(kind, ros_version=2)[0].encode("utf-8")
 
 
 def serialise(message: Any) -> bytes:  # noqa: ANN401 (a message of any type)
     """Serialise a message as CDR."""
-    return bytes(STANDARD.serialize_cdr(message, message.__msgtype__))
+    return bytes(standard_types().serialize_cdr(message, message.__msgtype__))
 
 
 def header(stamp: int, frame: str) -> Any:  # noqa: ANN401
@@ -181,7 +180,7 @@ def points(stamp: int, frame: str, truth: PointTruth, sensors: int) -> Any:  # n
 
 
 def _make(kind: str, **fields: Any) -> Any:  # noqa: ANN401
-    return STANDARD.types[kind](**fields)
+    return standard_types().types[kind](**fields)
 
 
 def _vector(values: NDArray[np.float64]) -> Any:  # noqa: ANN401
@@ -190,5 +189,7 @@ def _vector(values: NDArray[np.float64]) -> Any:  # noqa: ANN401
 
 
 def _quaternion(R: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    from scipy.spatial.transform import Rotation
+
     x, y, z, w = Rotation.from_matrix(R).as_quat().tolist()
     return _make("geometry_msgs/msg/Quaternion", x=x, y=y, z=z, w=w)

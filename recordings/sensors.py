@@ -276,8 +276,11 @@ def depth_stream(
     stamps = decoder.header_stamps(topic.channel)
     index = np.full(len(stamps), -1, dtype=np.int64)
     if status is not None:
-        row_of = {int(t): row for row, t in enumerate(decoder.header_stamps(status.channel))}
-        index[:] = [row_of.get(int(t), -1) for t in stamps]
+        of_status = decoder.header_stamps(status.channel)
+        order = np.argsort(of_status, kind="stable")
+        at = np.searchsorted(of_status[order], stamps, side="right") - 1  # of equals the last
+        row = order[np.maximum(at, 0)]
+        index = np.where((at >= 0) & (of_status[row] == stamps), row, -1)
     form = range_format(topic.channel.schema_name)
     assert form is not None  # or the topic would not be used as ranges
     return DepthStream(topic, sensor, status, index, form)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation, Slerp
 
 Stamps = NDArray[np.int64]
 FARTHEST = 1e8
@@ -29,8 +28,16 @@ class PoseTrack:
     translation: NDArray[np.float64]
     rotation: NDArray[np.float64]
 
+    def near(self, stamps: Stamps) -> "PoseTrack":
+        """The part of the track that `at` needs for increasing stamps (K,)."""
+        low = max(int(np.searchsorted(self.stamps, stamps[0], side="right")) - 1, 0)
+        high = int(np.searchsorted(self.stamps, stamps[-1], side="left")) + 1
+        return PoseTrack(self.stamps[low:high], self.translation[low:high], self.rotation[low:high])
+
     def at(self, stamps: Stamps) -> NDArray[np.float64]:
         """Poses (K, 4, 4), linear in position and slerp in rotation, NaN outside the track."""
+        from scipy.spatial.transform import Rotation, Slerp
+
         poses = np.full((len(stamps), 4, 4), np.nan)
         known = (stamps >= self.stamps[0]) & (stamps <= self.stamps[-1])
         if not known.any():
@@ -99,6 +106,8 @@ def pose_tracks(
 
 def last_poses(tracks: Sequence[PoseTrack]) -> NDArray[np.float64]:
     """Last pose (N, 4, 4) of each of several tracks."""
+    from scipy.spatial.transform import Rotation
+
     poses = np.tile(np.eye(4), (len(tracks), 1, 1))
     if tracks:
         poses[:, :3, 3] = [track.translation[-1] for track in tracks]
@@ -126,9 +135,18 @@ class VectorTrack:
         times, apart = _times(self.stamps)
         wanted = (stamps - self.stamps[0]) * 1e-9
         values = _linear(wanted, times, self.values[apart])
-        margin = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-        values[(wanted < -margin) | (wanted > times[-1] + margin)] = np.nan
+        values[~self.covers(stamps)] = np.nan
         return values
+
+    def rotated(self, rotation: NDArray[np.float64]) -> "VectorTrack":
+        """The track in another frame, by the rotation (3, 3) into it."""
+        return VectorTrack(self.stamps, self.values @ rotation.T)
+
+    def covers(self, stamps: Stamps) -> NDArray[np.bool_]:
+        """(K,) where `at` knows the values."""
+        times, _ = _times(self.stamps)
+        wanted, margin = (stamps - self.stamps[0]) * 1e-9, _margin(times)
+        return (wanted >= -margin) & (wanted <= times[-1] + margin)
 
     def mean(self, start: int, end: int) -> NDArray[np.float64]:
         """Mean (D,) over the time from `start` to `end` (nanoseconds), NaN where it is unknown."""
@@ -136,6 +154,26 @@ class VectorTrack:
         stamps = np.concatenate([[start], inside, [end]])
         times = (stamps - start) * 1e-9
         return np.trapezoid(self.at(stamps), times, axis=0) / times[-1]
+
+
+class VectorsAtFrames:
+    """Sampled vector at the frames of a recording.
+
+    Args:
+        track: of the vector.
+        stamps: (K,) nanoseconds of the frames.
+    """
+
+    def __init__(self, track: VectorTrack, stamps: Stamps) -> None:
+        self._track, self._stamps, self._values = track, stamps, track.at(stamps)
+
+    def at_frame(self, k: int) -> NDArray[np.float64]:
+        """Value (D,) at a frame, NaN where unknown."""
+        return self._values[k]
+
+    def mean(self, source_k: int, target_k: int) -> NDArray[np.float64]:
+        """Mean (D,) over the time between two frames, NaN where unknown."""
+        return self._track.mean(int(self._stamps[source_k]), int(self._stamps[target_k]))
 
 
 def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> VectorTrack | None:
@@ -150,6 +188,25 @@ def vector_track(stamps: NDArray[np.int64], values: NDArray[np.float64]) -> Vect
     _, last = np.unique(stamps[::-1], return_index=True)
     rows = len(stamps) - 1 - last
     return VectorTrack(stamps[rows], values[rows])
+
+
+def vector_tracks(
+    of: NDArray[np.int64], stamps: NDArray[np.int64], values: NDArray[np.float64]
+) -> dict[int, VectorTrack]:
+    """{number: its track} of vectors (N, D) of several numbers (N,), as `vector_track` makes it."""
+    order = np.argsort(of, kind="stable")
+    numbers, starts = np.unique(of[order], return_index=True)
+    parts = np.split(order, starts[1:])
+    tracks = {
+        number: vector_track(stamps[part], values[part])
+        for number, part in zip(numbers.tolist(), parts, strict=False)
+    }
+    return {number: track for number, track in tracks.items() if track is not None}
+
+
+def _margin(times: NDArray[np.float64]) -> float:
+    """Sampling period, for which the first and the last sample hold further."""
+    return float(np.median(np.diff(times))) if len(times) > 1 else 0.0
 
 
 def _times(stamps: Stamps) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:

@@ -1,22 +1,22 @@
 """Transform tree of /tf and /tf_static."""
 
-from array import array
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from recordings.contents import Topic, Use
-from recordings.decoding import Decoder, stamp_of
-from recordings.errors import RecordingError, few
-from recordings.tracks import PoseTrack, Stamps, last_poses, pose_tracks
+from recordings.decoding import Decoder
+from recordings.errors import few
+from recordings.nearby import Column, FramePlaces
+from recordings.tracks import Stamps
+from recordings.transform_samples import Parents, TransformSamples, WholePoses
+from recordings.transforms_nearby import TransformsNearby
 
 Transform = NDArray[np.float64]
 _STILL = 1e-3  # metres, and rad of small angles
-MOST_POSES = 2**22
-"""Poses of moving frames times frames of a recording: 500 MB."""
+_LOOKED_AT = 32  # frames of a long recording
 _TOLD = 8  # frames with two parents that are named
 _SEGMENT = 256
 """Frames of a chain whose product is kept; the trees of robots are not as deep."""
@@ -28,16 +28,19 @@ class TransformTree:
     Args:
         parents: {frame: its parent}; loops are cut, see `cut`.
         poses: {frame: T_parent_frame, (K, 4, 4) over the recording's frames or (1, 4, 4) where it
-            is constant, NaN where unknown}.
+            is constant, NaN where unknown; or a `Column` of a long recording}.
 
     Attributes:
         frames: all frames of the tree.
         cut: frames whose parent is left out because it lies below them.
     """
 
-    def __init__(self, parents: Mapping[str, str], poses: Mapping[str, Transform]) -> None:
+    def __init__(self, parents: Mapping[str, str], poses: Mapping[str, Transform | Column]) -> None:
         self._parents = dict(parents)
         self._poses = poses
+        self._on_demand = isinstance(poses, dict) and any(
+            isinstance(each, Column) for each in poses.values()
+        )
         self.frames = frozenset(self._parents) | frozenset(self._parents.values())
         self._depth: dict[str, int] = {}
         self._root: dict[str, str] = {}
@@ -56,12 +59,18 @@ class TransformTree:
     def moves(self, a: str, b: str) -> bool:
         """Whether the pose between two connected frames changes over the recording.
 
-        Changes within a millimetre and a milliradian are noise of measured poses.
+        Changes within a millimetre and a milliradian are noise of measured poses. Of a long
+        recording some frames are looked at.
         """
-        changing = [len(poses) for poses in self._way(a, b) if poses.ndim == 3]
-        if not changing:
-            return False
-        poses = self.over(a, b, changing[0])
+        columns = self._columns(a, b)
+        if columns:
+            looked_at = np.linspace(0, len(columns[0]) - 1, _LOOKED_AT).astype(int).tolist()
+            poses = np.stack([self.transform(a, b, k) for k in looked_at])
+        else:
+            changing = [len(poses) for poses in self._way(a, b) if poses.ndim == 3]
+            if not changing:
+                return False
+            poses = self.over(a, b, changing[0])
         known = poses[np.isfinite(poses).all(axis=(1, 2))]
         return len(known) == 0 or bool(np.ptp(known, axis=0).max() > _STILL)
 
@@ -74,13 +83,35 @@ class TransformTree:
         poses = self._relative(a, b, None)
         return np.broadcast_to(poses if poses.ndim == 2 else poses[:frames], (frames, 4, 4)).copy()
 
+    def poses(self, a: str, b: str, frames: int) -> Transform | Column:
+        """As `over`, or, of a long recording, computed where they are asked for."""
+        if not self._columns(a, b):
+            return self.over(a, b, frames)
+        return Column(lambda k: self.transform(a, b, k), self.known(a, b, frames))
+
     def known(self, a: str, b: str, frames: int) -> NDArray[np.bool_]:
         """(K,) whether T_a_b is known at the first `frames` frames."""
         known = np.full(frames, self.connected(a, b))
+        if columns := self._columns(a, b):
+            return known & np.all([column.known[:frames] for column in columns], axis=0)
         for poses in self._way(a, b):
             finite = np.asarray(np.isfinite(poses).all(axis=(-2, -1)))
             known &= finite if finite.ndim == 0 else finite[:frames]
         return known
+
+    def _columns(self, a: str, b: str) -> list[Column]:
+        """Poses between two frames that are computed where they are asked for."""
+        if not (self._on_demand and self.connected(a, b)):
+            return []
+        common = self._common(a, b)
+        frames = [*self._frames_up(a, common), *self._frames_up(b, common)]
+        return [poses for f in frames if isinstance(poses := self._poses[f], Column)]
+
+    def _frames_up(self, frame: str, ancestor: str) -> Iterator[str]:
+        """Frames from one up to below an ancestor."""
+        while frame != ancestor:
+            yield frame
+            frame = self._parents[frame]
 
     def _enter(self, start: str) -> list[str]:
         """Find depth and root of a frame and of those above; returns the frame of a cut, if any."""
@@ -154,7 +185,7 @@ class TransformTree:
         poses = self._poses[frame]
         if len(poses) == 1:
             return poses[0]
-        return poses if k is None else poses[k]
+        return np.asarray(poses) if k is None else poses[k]
 
 
 def inverse(T: Transform) -> Transform:
@@ -168,39 +199,58 @@ def inverse(T: Transform) -> Transform:
 
 
 def read_transforms(
-    topics: Iterable[Topic], decoder: Decoder, stamps: Stamps
+    topics: Iterable[Topic],
+    decoder: Decoder,
+    stamps: Stamps,
+    places: FramePlaces | None = None,
 ) -> tuple[TransformTree, list[str]]:
     """Read /tf and /tf_static into a tree at the given frames.
+
+    Where /tf of a long recording has many messages, its poses are read around the frames that are
+    asked for; see `TransformsNearby`.
 
     Args:
         topics: of the file; those used as poses are read.
         decoder: of the file.
         stamps: (K,) nanoseconds of the recording's frames.
+        places: of the frames of a long recording.
 
     Returns:
         The tree, and warnings about frames that could not be used.
     """
-    parents: dict[str, str] = {}
-    samples = {Use.STATIC_TRANSFORMS: _Samples(), Use.TRANSFORMS: _Samples()}
-    others: dict[str, str] = {}
+    parents = Parents()
+    uses = (Use.STATIC_TRANSFORMS, Use.TRANSFORMS)
+    samples = {use: TransformSamples(parents) for use in uses}
+    topics = [topic for topic in topics if topic.use in samples]
+    nearby = _nearby(topics, places, parents)
     for topic in topics:
-        if topic.use not in samples:
-            continue
-        into = samples[topic.use]
-        for message in decoder.messages(topic.channel):
-            for transform in message.transforms:
-                child = transform.child_frame_id.lstrip("/")
-                parent = transform.header.frame_id.lstrip("/")
-                if parents.setdefault(child, parent) != parent:
-                    others.setdefault(child, parent)
-                    continue
-                into.add(child, transform)
-
+        if topic.use is Use.STATIC_TRANSFORMS and places and places.is_long(topic.channel):
+            samples[topic.use].add_ends(places, topic.channel)
+        elif not (nearby and topic.use is Use.TRANSFORMS):
+            samples[topic.use].add(decoder, topic.channel)
     fixed, moving = (each.tracks() for each in samples.values())
-    lost = [child for child in parents if child not in fixed and child not in moving]
-    for child in lost:
-        del parents[child]
-    tree = TransformTree(parents, _Poses(fixed, moving, stamps))
+    poses: Mapping[str, Transform | Column] = WholePoses(fixed, moving, stamps)
+    if nearby:
+        poses = {**poses, **nearby.columns()}
+    lost = [child for child in parents.first if child not in poses]
+    placed = {child: parent for child, parent in parents.first.items() if child in poses}
+    tree = TransformTree(placed, poses)
+    return tree, _warnings(placed, parents.others, lost, tree.cut)
+
+
+def _nearby(
+    topics: list[Topic], places: FramePlaces | None, parents: Parents
+) -> TransformsNearby | None:
+    """The moving frames of a long recording, None where all poses are read at once."""
+    moving = [topic for topic in topics if topic.use is Use.TRANSFORMS]
+    if places is None or not any(places.is_long(topic.channel) for topic in moving):
+        return None
+    return TransformsNearby(moving, places, parents)
+
+
+def _warnings(
+    parents: Mapping[str, str], others: Mapping[str, str], lost: list[str], cut: list[str]
+) -> list[str]:
     warnings = [
         f"Frame {child} has two parents, {parents[child]} and {other}; the second is left out."
         for child, other in list(others.items())[:_TOLD]
@@ -210,64 +260,6 @@ def read_transforms(
         warnings.append(f"{len(others) - _TOLD} more frames have two parents.")
     if lost:
         warnings.append(f"No pose of {few(lost)} in /tf is usable.")
-    if tree.cut:
-        warnings.append(f"The poses in /tf go round in a circle above {few(tree.cut)}.")
-    return tree, warnings
-
-
-class _Samples:
-    """Poses of frames as they are read, in flat arrays: there may be millions."""
-
-    def __init__(self) -> None:
-        self._numbers: dict[str, int] = {}
-        self._of, self._stamps, self._values = array("q"), array("q"), array("d")
-
-    def add(self, child: str, stamped: Any) -> None:  # noqa: ANN401 (TransformStamped)
-        """Add a pose of a frame."""
-        t, q = stamped.transform.translation, stamped.transform.rotation
-        self._of.append(self._numbers.setdefault(child, len(self._numbers)))
-        self._stamps.append(stamp_of(stamped))
-        self._values.extend((t.x, t.y, t.z, q.x, q.y, q.z, q.w))
-
-    def tracks(self) -> dict[str, PoseTrack]:
-        """{frame: its track} of the frames with a usable pose."""
-        values = np.array(self._values, dtype=np.float64).reshape(-1, 7)
-        of, stamps = np.array(self._of, np.int64), np.array(self._stamps, np.int64)
-        tracks = pose_tracks(of, stamps, values[:, :3], values[:, 3:])
-        return {name: tracks[n] for name, n in self._numbers.items() if n in tracks}
-
-
-class _Poses(Mapping[str, Transform]):
-    """Poses of frames at the frames of a recording, computed where they are asked for.
-
-    Args:
-        fixed: {frame: track} of /tf_static, whose last pose counts.
-        moving: {frame: track} of /tf; a frame in both counts as moving.
-        stamps: (K,) nanoseconds of the recording's frames.
-    """
-
-    def __init__(
-        self, fixed: Mapping[str, PoseTrack], moving: Mapping[str, PoseTrack], stamps: Stamps
-    ) -> None:
-        self._moving, self._stamps, self._computed = moving, stamps, 0
-        self._known = dict(zip(fixed, last_poses(list(fixed.values()))[:, None], strict=True))
-        for frame in moving:
-            self._known.pop(frame, None)
-
-    def __getitem__(self, frame: str) -> Transform:
-        """Poses of a frame; RecordingError where there are too many."""
-        if frame not in self._known:
-            self._computed += 1
-            if self._computed * len(self._stamps) > MOST_POSES:
-                raise RecordingError(
-                    f"/tf moves more than {self._computed - 1} frames that place the sensors, "
-                    f"and there may be {MOST_POSES} poses; give the file in parts."
-                )
-            self._known[frame] = self._moving[frame].at(self._stamps)
-        return self._known[frame]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter({**self._known, **self._moving})
-
-    def __len__(self) -> int:
-        return len({**self._known, **self._moving})
+    if cut:
+        warnings.append(f"The poses in /tf go round in a circle above {few(cut)}.")
+    return warnings

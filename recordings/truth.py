@@ -6,8 +6,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.tracks import Stamps, VectorTrack
+from recordings.nearby import Column
+from recordings.tracks import Stamps, VectorsAtFrames, VectorTrack
 from recordings.transforms import inverse
+from recordings.truth_nearby import TwistNearby
 
 
 @dataclass(frozen=True)
@@ -43,41 +45,48 @@ class TwistTruth:
     """Object with a recorded velocity, assumed to be in pure translation.
 
     Args:
-        track: velocity in the fixed frame.
+        track: velocity in the fixed frame, or, of a long recording, its parts around frames.
         stamps: (K,) nanoseconds of the frames.
-        rotates: whether the recorded twist has an angular velocity.
+        rotates: whether the recorded twist has, or may have, an angular velocity.
 
     Attributes:
         rotates: as given.
     """
 
-    def __init__(self, track: VectorTrack, stamps: Stamps, rotates: bool = False) -> None:
+    def __init__(
+        self, track: VectorTrack | TwistNearby, stamps: Stamps, rotates: bool = False
+    ) -> None:
         self.rotates = rotates
-        self._track, self._stamps = track, stamps
-        self._at_frames = track.at(stamps)
+        self._velocity = VectorsAtFrames(track, stamps) if isinstance(track, VectorTrack) else track
 
     def at(self, k: int) -> NDArray[np.float64] | None:
         """Velocity (3,) m/s at frame `k`, None outside the track."""
-        velocity = self._at_frames[k]
+        velocity = self._velocity.at_frame(k)
         return velocity if np.isfinite(velocity).all() else None
 
     def over(
         self, source_k: int, target_k: int, points: NDArray[np.float64]
     ) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s between two frames, the same for every point."""
-        mean = self._track.mean(int(self._stamps[source_k]), int(self._stamps[target_k]))
+        mean = self._velocity.mean(source_k, target_k)
         return np.broadcast_to(mean, points.shape) if np.isfinite(mean).all() else None
+
+    def may_turn(self, source_k: int, target_k: int) -> bool:
+        """Whether it may rotate between two frames; looked at in a long recording alone."""
+        if isinstance(self._velocity, TwistNearby):
+            return self._velocity.turns(source_k, target_k)
+        return True
 
 
 class RigidTruth:
     """Object that moves rigidly with a frame whose pose was recorded.
 
     Args:
-        T_fixed_object: (K, 4, 4) at the frames, NaN where unknown.
+        T_fixed_object: (K, 4, 4) at the frames, NaN where unknown; or a `Column` of them.
         stamps: (K,) nanoseconds of the frames.
     """
 
-    def __init__(self, T_fixed_object: NDArray[np.float64], stamps: Stamps) -> None:
+    def __init__(self, T_fixed_object: NDArray[np.float64] | Column, stamps: Stamps) -> None:
         self._poses = T_fixed_object
         self._seconds = (stamps - stamps[0]) * 1e-9
 
@@ -89,7 +98,7 @@ class RigidTruth:
         before, after = max(k - 1, 0), min(k + 1, len(self._seconds) - 1)
         if before == after:
             return None
-        step = self._poses[after, :3, 3] - self._poses[before, :3, 3]
+        step = self._poses[after][:3, 3] - self._poses[before][:3, 3]
         velocity = step / (self._seconds[after] - self._seconds[before])
         return velocity if np.isfinite(velocity).all() else None
 
@@ -129,5 +138,7 @@ class TurningTruth:
         self, source_k: int, target_k: int, points: NDArray[np.float64]
     ) -> NDArray[np.float64] | None:
         """Displacement of each point, carried along rigidly, per interval: (N, 3) m/s."""
+        if not self._twist.may_turn(source_k, target_k):
+            return self._twist.over(source_k, target_k, points)
         carried = self._rigid.over(source_k, target_k, points)
         return self._twist.over(source_k, target_k, points) if carried is None else carried

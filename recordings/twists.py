@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from recordings.transforms import Transform
 
@@ -34,6 +33,8 @@ class Twist:
 
     def motion(self, seconds: float) -> Transform:
         """Rigid motion (4, 4) of points over `seconds` at this twist."""
+        from scipy.linalg import expm
+
         x, y, z = (self.angular * seconds).tolist()
         rate = np.zeros((4, 4))
         rate[:3, :3] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]

@@ -1,12 +1,16 @@
 """Writer of recordings: ROS 2 profile, CDR, standard types, so that other tools open them."""
 
-from collections.abc import Iterator, Mapping
+from array import array
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
+from typing import Any
 
 import numpy as np
 from mcap.writer import CompressionType, Writer
+from numpy.typing import NDArray
 
 from recordings import ros_messages as ros
 from recordings.contents import natural_key
@@ -18,13 +22,24 @@ from recordings.object_truth import OBJECT_FRAME, TARGET_FRAME
 from recordings.provenance import PROVENANCE_RECORD, provenance_record
 from recordings.rig_record import RIG_ATTACHMENT, RIG_TYPE, depth_topic, packed, topic_part
 from recordings.stamp_index import MEDIA_TYPE, STAMP_INDEX, pack
+from recordings.stamped_message import StampedMessage, stamped
 from recordings.transforms import inverse
+from recordings.velocity_record import (
+    BYTES,
+    MANY,
+    VELOCITIES,
+    VELOCITIES_TYPE,
+    VELOCITY_TOPIC,
+    pack_velocities,
+)
 from robot_assets import Rig, Robot
 
 _LATCHED = (
     "- durability: transient_local\n  reliability: reliable\n  history: keep_last\n  depth: 1"
 )
 _STREAMED = "- durability: volatile\n  reliability: reliable\n  history: keep_last\n  depth: 10"
+
+_Make = Callable[[int], Any]
 
 
 class RecordingWriter:
@@ -59,7 +74,8 @@ class RecordingWriter:
         self._index_in_file = np.argsort(order)
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
-        self._stamps: dict[str, list[int]] = {}
+        self._stamps: dict[str, array[int]] = {}
+        self._velocities: array[float] = array("d")
         with self._in_words():
             self._draft = Draft(path)
         self._writer = Writer(self._draft.stream, compression=CompressionType.ZSTD)
@@ -88,6 +104,9 @@ class RecordingWriter:
             if kind is None:
                 with self._in_words():
                     self._writer.add_attachment(0, 0, STAMP_INDEX, MEDIA_TYPE, pack(self._stamps))
+                    if len(self._stamps.get(VELOCITY_TOPIC, ())) >= MANY:
+                        content = pack_velocities(self._velocities)
+                        self._writer.add_attachment(0, 0, VELOCITIES, VELOCITIES_TYPE, content)
                     self._writer.finish()
                     self._draft.complete()
         finally:
@@ -111,22 +130,51 @@ class RecordingWriter:
 
     def _write(self, frame: Frame) -> None:
         stamp = round(frame.stamp * 1e9)
-        base = self._robot.base
         if not self._stamps:
             self._write_constants(stamp)
-        self._add("/joint_states", ros.joint_state(stamp, base, frame.joint_positions), stamp)
-        self._add("/tf", ros.transforms(stamp, self._moving_poses(frame)), stamp)
+        for topic, make in [*self._pose_messages(frame), *self._reading_messages(frame)]:
+            self._add(topic, make(stamp), stamp)
+
+    def prepared(self, frame: Frame) -> list[StampedMessage]:
+        """Messages of a frame for `write_again`; its stamp is of no matter."""
+        makers = [*self._pose_messages(frame), *self._reading_messages(frame)]
+        return [stamped(topic, make) for topic, make in makers]
+
+    def prepared_poses(self, frame: Frame) -> list[StampedMessage]:
+        """Joints and poses of a frame alone for `write_again`."""
+        return [stamped(topic, make) for topic, make in self._pose_messages(frame)]
+
+    def write_again(self, messages: list[StampedMessage], stamp: int) -> None:
+        """Append prepared messages with a stamp in nanoseconds; stamps must increase.
+
+        Raises:
+            RecordingError: the file cannot be written.
+        """
+        with self._in_words():
+            if not self._stamps:
+                self._write_constants(stamp)
+            for message in messages:
+                self._append(message.topic, message.kind, message.at(stamp), stamp)
+
+    def _pose_messages(self, frame: Frame) -> Iterator[tuple[str, _Make]]:
+        """(topic, what makes its message with a stamp) of the joints and the poses."""
+        base, moving = self._robot.base, self._moving_poses(frame)
+        yield "/joint_states", lambda stamp: ros.joint_state(stamp, base, frame.joint_positions)
+        yield "/tf", lambda stamp: ros.transforms(stamp, moving)
+
+    def _reading_messages(self, frame: Frame) -> Iterator[tuple[str, _Make]]:
+        """As `_pose_messages`, of the readings and the truth."""
+        base = self._robot.base
         # A depth image holds distances along the optical axis; a sensor may report them radially.
         ranges = frame.ranges * self._rig.model.directions[..., 2]
         for i, name in enumerate(self._names):
-            image = ros.depth_image(stamp, _frame_id(name), ranges[i])
-            self._add(depth_topic(name), image, stamp)
+            yield depth_topic(name), partial(_image, ros.depth_image, name, ranges[i])
             if frame.status is not None:
-                status = ros.status_image(stamp, _frame_id(name), frame.status[i])
-                self._add(f"/tof/{name}/status", status, stamp)
-        motion = ros.twist(stamp, base, frame.target_velocity, frame.target_turn_rate)
-        self._add("/target/velocity", motion, stamp)
-        self._add("/target/pose", ros.pose(stamp, base, frame.T_base_target), stamp)
+                status = partial(_image, ros.status_image, name, frame.status[i])
+                yield f"/tof/{name}/status", status
+        motion = frame.target_velocity, frame.target_turn_rate
+        yield VELOCITY_TOPIC, lambda stamp: ros.twist(stamp, base, *motion)
+        yield "/target/pose", lambda stamp: ros.pose(stamp, base, frame.T_base_target)
         truth = PointTruth(
             points=frame.truth.points,
             velocity=frame.truth.velocity,
@@ -134,7 +182,7 @@ class RecordingWriter:
             sensor=self._index_in_file[frame.truth.sensor],
             zone=frame.truth.zone,
         )
-        self._add("/truth/points", ros.points(stamp, base, truth, len(self._names)), stamp)
+        yield "/truth/points", lambda stamp: ros.points(stamp, base, truth, len(self._names))
 
     def _write_constants(self, stamp: int) -> None:
         robot = self._robot
@@ -167,8 +215,12 @@ class RecordingWriter:
         ]
         return [*moving, (base, TARGET_FRAME, frame.T_base_target), *objects]
 
-    def _add(self, topic: str, message: object, stamp: int, latched: bool = False) -> None:
-        kind = message.__msgtype__  # type: ignore[attr-defined]
+    def _add(self, topic: str, message: Any, stamp: int, latched: bool = False) -> None:  # noqa: ANN401
+        self._append(topic, message.__msgtype__, ros.serialise(message), stamp, latched)
+
+    def _append(
+        self, topic: str, kind: str, data: bytes, stamp: int, latched: bool = False
+    ) -> None:
         if topic not in self._channels:
             if kind not in self._schemas:
                 schema = self._writer.register_schema(kind, "ros2msg", ros.schema_text(kind))
@@ -176,9 +228,14 @@ class RecordingWriter:
             quality = {"offered_qos_profiles": _LATCHED if latched else _STREAMED}
             channel = self._writer.register_channel(topic, "cdr", self._schemas[kind], quality)
             self._channels[topic] = channel
-        data = ros.serialise(message)
         self._writer.add_message(self._channels[topic], stamp, data, stamp)
-        self._stamps.setdefault(topic, []).append(stamp)
+        self._stamps.setdefault(topic, array("q")).append(stamp)
+        if topic == VELOCITY_TOPIC:
+            self._velocities.frombytes(data[-BYTES:])
+
+
+def _image(make: Callable[..., Any], name: str, values: NDArray[Any], stamp: int) -> Any:  # noqa: ANN401
+    return make(stamp, _frame_id(name), values)
 
 
 def _frame_id(topic_part: str) -> str:

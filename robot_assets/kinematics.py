@@ -1,14 +1,15 @@
 """Forward kinematics of a URDF, in time linear in the number of its links."""
 
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import yourdfpy
 from numpy.typing import NDArray
-from trimesh.transformations import rotation_matrix, translation_matrix
 
 from robot_assets.errors import RobotError
+
+if TYPE_CHECKING:
+    import yourdfpy
 
 ROTARY = ("revolute", "continuous")
 _MOVING = (*ROTARY, "prismatic")
@@ -29,7 +30,7 @@ class Kinematics:
         RobotError: the joints are not those of one tree; the text is a reason.
     """
 
-    def __init__(self, urdf: yourdfpy.URDF) -> None:
+    def __init__(self, urdf: "yourdfpy.URDF") -> None:
         self.links = tuple(str(link) for link in urdf.link_map)
         above = self._above = dict[str, Any]()
         for joint in urdf.robot.joints:
@@ -92,6 +93,8 @@ def driver(joint: Any) -> str:  # noqa: ANN401 (yourdfpy has no types)
 
 def _pose(joint: Any, positions: Mapping[str, float]) -> NDArray[np.float64]:  # noqa: ANN401
     """T_parent_child (4, 4) of a joint."""
+    from trimesh.transformations import rotation_matrix, translation_matrix
+
     origin = np.eye(4) if joint.origin is None else joint.origin
     if joint.type not in _MOVING:
         return origin

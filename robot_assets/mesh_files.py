@@ -5,10 +5,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.metadata import distribution
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import trimesh
+
+if TYPE_CHECKING:
+    import trimesh
 
 FORMATS = (".stl", ".dae", ".obj", ".ply", ".glb", ".gltf")
 """Endings of the files that are read: formats of one mesh or scene, and no archives."""
@@ -89,7 +91,7 @@ def panda_urdf_path() -> Path:
     return _example_data() / "robots" / "panda_description" / "urdf" / "panda.urdf"
 
 
-def read_mesh(path: Path) -> trimesh.Trimesh:
+def read_mesh(path: Path) -> "trimesh.Trimesh":
     """Read a mesh file as one mesh, metres, materials as colours of its vertices.
 
     Args:
@@ -98,6 +100,8 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
     Raises:
         MeshError: it cannot be read, is too large, or is empty.
     """
+    import trimesh
+
     if path.suffix.lower() not in FORMATS:
         raise MeshError(f"its format is none of {', '.join(FORMATS)}")
     try:
@@ -115,8 +119,10 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
     return mesh
 
 
-def _coloured(loaded: Any) -> trimesh.Trimesh:  # noqa: ANN401 (trimesh.load gives a mesh or a scene)
+def _coloured(loaded: Any) -> "trimesh.Trimesh":  # noqa: ANN401 (trimesh.load gives a mesh or a scene)
     """Merge a loaded file into one mesh, with materials as vertex colours."""
+    import trimesh
+
     parts: list[trimesh.Trimesh] = []
     for mesh in [loaded] if isinstance(loaded, trimesh.Trimesh) else loaded.dump():
         material: Any = getattr(mesh.visual, "material", mesh.visual)

@@ -3,14 +3,16 @@
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import trimesh
-import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.mesh_files import MeshError, MeshPlaces, read_mesh
+
+if TYPE_CHECKING:
+    import trimesh
+    import yourdfpy
 
 MOST_TRIANGLES = 400_000
 """Triangles of a robot's visual meshes, and as many of its collision meshes."""
@@ -39,7 +41,7 @@ class RobotMeshes:
     """
 
     def __init__(
-        self, urdf: yourdfpy.URDF, places: MeshPlaces, unknown: Sequence[str] = ()
+        self, urdf: "yourdfpy.URDF", places: MeshPlaces, unknown: Sequence[str] = ()
     ) -> None:
         self._urdf = urdf
         self._places = places
@@ -55,11 +57,13 @@ class RobotMeshes:
         for name in list(dict.fromkeys(str(mesh.filename) for mesh in meshes))[:MOST_SHAPES]:
             self._look_up(name)
 
-    def of(self, kind: Kind) -> dict[str, trimesh.Trimesh]:
+    def of(self, kind: Kind) -> "dict[str, trimesh.Trimesh]":
         """{link: one mesh in the link's frame, metres, coloured per vertex}.
 
         Shapes that cannot be used are left out, see `warnings`.
         """
+        import trimesh
+
         found: dict[str, list[trimesh.Trimesh]] = {}
         left = MOST_TRIANGLES
         for number, (link, part) in enumerate(self._parts(kind)):
@@ -103,7 +107,7 @@ class RobotMeshes:
         except MeshError as error:
             self._left_out[filename, ""] = str(error)
 
-    def _mesh(self, part: Any, most: int) -> trimesh.Trimesh:  # noqa: ANN401 (untyped)
+    def _mesh(self, part: Any, most: int) -> "trimesh.Trimesh":  # noqa: ANN401 (untyped)
         """Mesh of a part in its link's frame; MeshError where it cannot be used."""
         geometry = part.geometry
         if getattr(geometry, "mesh", None) is not None:
@@ -123,7 +127,7 @@ class RobotMeshes:
             raise MeshError(f"it reaches farther than {_FARTHEST:g} m from its link")
         return mesh
 
-    def _read(self, path: Path) -> trimesh.Trimesh:
+    def _read(self, path: Path) -> "trimesh.Trimesh":
         """A copy of a file's mesh; each file is read once, and MeshError is raised as often."""
         if path not in self._files:
             try:
@@ -141,7 +145,9 @@ class RobotMeshes:
         return found.copy()
 
 
-def _shape(geometry: Any) -> trimesh.Trimesh:  # noqa: ANN401
+def _shape(geometry: Any) -> "trimesh.Trimesh":  # noqa: ANN401
+    import trimesh
+
     if geometry.box is not None:
         return trimesh.creation.box(extents=_numbers(geometry.box.size, "size", 3))
     if geometry.cylinder is not None:
@@ -155,7 +161,9 @@ def _shape(geometry: Any) -> trimesh.Trimesh:  # noqa: ANN401
 
 
 @lru_cache(maxsize=8)
-def _sphere(radius: float) -> trimesh.Trimesh:
+def _sphere(radius: float) -> "trimesh.Trimesh":
+    import trimesh
+
     return trimesh.creation.icosphere(radius=radius)
 
 

@@ -1,9 +1,12 @@
 """Ray casting against a triangle mesh, by trimesh with Embree."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
-from trimesh.ray.ray_pyembree import RayMeshIntersector
+
+if TYPE_CHECKING:
+    import trimesh
 
 _STEP = 1e-5  # metres past a surface, above Embree's single precision at a few metres
 _MAX_SURFACES = 8
@@ -19,7 +22,9 @@ class RayCaster:
         mesh: triangles with outward normals, metres.
     """
 
-    def __init__(self, mesh: trimesh.Trimesh) -> None:
+    def __init__(self, mesh: "trimesh.Trimesh") -> None:
+        from trimesh.ray.ray_pyembree import RayMeshIntersector
+
         self._intersector = RayMeshIntersector(mesh)
         self._normals = np.asarray(mesh.face_normals)
         self._corners = np.asarray(mesh.triangles)[:, 0]

@@ -6,11 +6,10 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
-import trimesh
-import yourdfpy
 from numpy.typing import NDArray
 
 from robot_assets.errors import RobotError
@@ -19,6 +18,10 @@ from robot_assets.joint_match import LONGEST_NAME, JointMatch, match_joints
 from robot_assets.kinematics import ROTARY, Kinematics
 from robot_assets.mesh_files import MeshPlaces, panda_urdf_path
 from robot_assets.meshes import SHAPES, RobotMeshes
+
+if TYPE_CHECKING:
+    import trimesh
+    import yourdfpy
 
 Transform = NDArray[np.float64]
 MOST_LINKS = 20_000
@@ -49,7 +52,7 @@ class Robot:
 
     def __init__(
         self,
-        urdf: yourdfpy.URDF,
+        urdf: "yourdfpy.URDF",
         name: str,
         text: str,
         places: MeshPlaces,
@@ -142,7 +145,7 @@ class Robot:
         return frozenset(str(j.child) for j in self._urdf.robot.joints if j.type == "fixed")
 
     @cached_property
-    def visual_meshes(self) -> dict[str, trimesh.Trimesh]:
+    def visual_meshes(self) -> "dict[str, trimesh.Trimesh]":
         """{link: one mesh in the link's frame, metres, coloured per vertex} of visible links.
 
         What cannot be used is left out, see `mesh_warnings`.
@@ -150,7 +153,7 @@ class Robot:
         return self._meshes.of("visuals")
 
     @cached_property
-    def collision_meshes(self) -> dict[str, trimesh.Trimesh]:
+    def collision_meshes(self) -> "dict[str, trimesh.Trimesh]":
         """{link: one mesh in the link's frame, metres} of links with collision geometry.
 
         What cannot be used is left out, see `mesh_warnings`.
@@ -205,6 +208,8 @@ def _read(path: Path) -> str:
 @lru_cache(maxsize=16)
 def _robot(text: str, where: str, places: MeshPlaces) -> Robot:
     # Recordings of the same robot share it, so that its meshes are loaded once.
+    import yourdfpy
+
     root = _root(where, text)
     unknown = _remove_unknown_shapes(root)
     try:

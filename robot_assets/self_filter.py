@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from robot_assets.raycast import RayCaster
@@ -46,6 +45,8 @@ class SelfFilter:
         Returns:
             (S, R, C), False where invalid.
         """
+        import trimesh
+
         shows = np.zeros(ranges.shape, dtype=bool)
         posed = [
             mesh.copy().apply_transform(link_poses[link])

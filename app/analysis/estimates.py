@@ -1,23 +1,20 @@
 """Cache of clouds, pairs and flows, shared by all sessions."""
 
-import numpy as np
-
 from app.analysis.cache import Cache
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
 from app.analysis.pair_estimator import PairEstimator
 from app.analysis.pairs import Pair, PreparedPair, make_pair, window_of
 from app.analysis.timeline import RecordedTimeline
-from estimator import Parameters, Stages, estimate_scene_flow, find_method
+from estimator import Parameters, Stages, current_engine, find_method
+from estimator.engines import REFERENCE
+from estimator.engines import warm_up as warm_up_engine
 from recordings import Cloud
 
 
 def warm_up() -> None:
-    """Run a small estimate, so that the first real one does not wait for libraries to load."""
-    steps = np.linspace(0.0, 0.1, 6)
-    patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
-    cloud = np.vstack([patch, patch + 2.0])
-    estimate_scene_flow(cloud, cloud, 1.0, Parameters(n_min=1))
+    """Load the libraries of the reference, for what the compiled engine leaves to them."""
+    warm_up_engine(REFERENCE)
 
 
 class Estimates:
@@ -62,17 +59,17 @@ class Estimates:
             with self.foreground:
                 return self._estimate(opened, k, parameters)
 
-        return self._pairs.get((opened.key, k, parameters), make)
+        return self._pairs.get((*_identity(opened), k, parameters), make)
 
     def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """`estimated` for background work, which does not count as foreground."""
         return self._pairs.get(
-            (opened.key, k, parameters), lambda: self._estimate(opened, k, parameters)
+            (*_identity(opened), k, parameters), lambda: self._estimate(opened, k, parameters)
         )
 
     def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
         """The pair (k-n, k) with its flow if that is cached, else None."""
-        return self._pairs.known((opened.key, k, parameters))
+        return self._pairs.known((*_identity(opened), k, parameters))
 
     def recorded_timeline(self, opened: Opened) -> RecordedTimeline:
         """The part of a recording's timeline that needs no estimate."""
@@ -83,15 +80,17 @@ class Estimates:
         # The cache is bounded, a recording's number of frames is not: search the cache.
         return [
             pair
-            for (key, _, values), pair in self._pairs.items()
-            if key == opened.key and values == parameters
+            for (*identity, _, values), pair in self._pairs.items()
+            if tuple(identity) == _identity(opened) and values == parameters
         ]
 
     def _estimate(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         estimator = PairEstimator(parameters)
         if find_method(parameters.method).tracker is not None:
             # A tracker's segments are kept, and belong to this opening of the file.
-            estimator = self._estimators.get((opened.number, parameters), lambda: estimator)
+            estimator = self._estimators.get(
+                (opened.number, current_engine().name, parameters), lambda: estimator
+            )
         return estimator.pair(k, lambda frame: self._prepare(opened, frame, parameters))
 
     def _prepare(self, opened: Opened, k: int, parameters: Parameters) -> PreparedPair:
@@ -108,3 +107,8 @@ class Estimates:
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)
         return self._clouds.get(key, lambda: opened.recording.cloud(k, max_range))
+
+
+def _identity(opened: Opened) -> tuple[tuple[str, int, int], str]:
+    """What an estimate depends on beside its frame and parameters: the file and the engine."""
+    return opened.key, current_engine().name

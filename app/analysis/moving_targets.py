@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from app.analysis.pairs import Pair
 from estimator import ClusterResult, Label
@@ -17,6 +16,8 @@ def moving_targets(pair: Pair) -> NDArray[np.bool_]:
     Those of moving clusters without the inliers that were removed; where the method has no targets
     in its clusters, those near the place where a moving source point went.
     """
+    from scipy.spatial import KDTree
+
     mask = np.zeros(len(pair.target.points), dtype=bool)
     if pair.source is None or pair.flow is None:
         return mask

@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from app.analysis.pairs import Pair
 from estimator import ClusterResult
@@ -34,6 +33,8 @@ class Selection:
 
         The match is the cluster nearest to most of the picked points, half of them at least.
         """
+        from scipy.spatial import KDTree
+
         if self._awaited is not None and pair is not None and pair.flow is not None:
             index, self._awaited = self._awaited, None
             self.pick(pair, index)

@@ -1,5 +1,7 @@
 """Counts, speeds and errors of every frame of a recording."""
 
+from itertools import islice
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -72,11 +74,12 @@ class Survey:
         """Number of pairs of the recording."""
         return max(len(self) - self.parameters.n, 0)
 
-    def missing(self) -> int | None:
-        """Next frame to compute, None once all are done."""
+    def missing(self, most: int) -> list[int]:
+        """Next frames to compute, at most so many; none once all are done."""
         while self._at < len(self._order) and self.done[self._order[self._at]]:
             self._at += 1
-        return self._order[self._at] if self._at < len(self._order) else None
+        left = (k for k in islice(self._order, self._at, None) if not self.done[k])
+        return list(islice(left, most))
 
     def put(self, k: int, pair: Pair | None) -> None:
         """Store the numbers of frame `k` from its pair, None for a broken frame."""

@@ -1,9 +1,11 @@
 """Surveys of whole recordings, computed in a background thread."""
 
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable, Hashable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 from app.analysis.cache import Cache
@@ -12,11 +14,12 @@ from app.analysis.library import Opened
 from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.errors import UserError
-from estimator import Parameters
+from estimator import Parameters, current_engine
 
+_CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
 _LOG = logging.getLogger(__name__)
 _QUIET = (
-    0.6  # seconds without foreground work before the next pair, so that sliders stay responsive
+    0.2  # seconds without foreground work before the next pairs, so that sliders stay responsive
 )
 _PATIENCE = 2.0  # seconds after which each survey advances by one frame in any case
 _NOTIFY_INTERVAL = 0.3  # minimum seconds between two notifications
@@ -36,7 +39,7 @@ class _Request:
 
 
 class Surveys:
-    """Fills the surveys of all sessions in one thread, one pair of each in turn.
+    """Fills the surveys of all sessions in the background, a pair a core of each in turn.
 
     Args:
         estimates: computes and caches the pairs.
@@ -49,6 +52,7 @@ class Surveys:
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}
         self._thread: threading.Thread | None = None
+        self._pool = ThreadPoolExecutor(_CORES, thread_name_prefix="survey")
 
     def request(
         self,
@@ -76,7 +80,7 @@ class Surveys:
 
     def known(self, opened: Opened, parameters: Parameters) -> Survey | None:
         """The survey as far as it is filled, None if it is not cached."""
-        return self._surveys.known((opened.key, parameters))
+        return self._surveys.known((opened.key, current_engine().name, parameters))
 
     def cancel(self, owner: Hashable) -> None:
         """Cancel the owner's request."""
@@ -109,19 +113,20 @@ class Surveys:
                 del self._requests[owner]
 
     def _advance(self, request: _Request) -> bool:
-        """Fill in one frame, and return whether the request is finished."""
+        """Fill in a frame a core, and return whether the request is finished."""
         opened, parameters = request.opened, request.parameters
         survey = request.survey = request.survey or self._surveys.get(
-            (opened.key, parameters), lambda: Survey(opened.recording, parameters)
+            (opened.key, current_engine().name, parameters),
+            lambda: Survey(opened.recording, parameters),
         )
         for known in self._estimates.cached(opened, parameters):
             if not survey.done[known.frame]:  # already computed by playing or scrubbing
                 survey.put(known.frame, known)
-        k = survey.missing()
-        if k is not None:
-            pair = self._pair(request, k)
-            if not request.wanted:
-                return True  # its recording may have been closed meanwhile
+        frames = survey.missing(_CORES)
+        pairs = list(self._pool.map(lambda k: self._pair(request, k), frames))
+        if not request.wanted:
+            return True  # its recording may have been closed meanwhile
+        for k, pair in zip(frames, pairs, strict=True):
             survey.put(k, pair)
         now = time.monotonic()
         if survey.complete or now - request.notified > max(_NOTIFY_INTERVAL, len(survey) * 2e-4):

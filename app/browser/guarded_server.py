@@ -22,6 +22,7 @@ from app.browser.connections import (
     Guards,
     guarding,
 )
+from app.browser.internals import keep_icons_open
 from app.browser.rubbish import RubbishLog
 from app.browser.visitor import Visitor
 
@@ -51,6 +52,7 @@ class GuardedServer(viser.ViserServer):
         embedders: Sequence[str] = (),
         page: Callable[[bytes], bytes] = lambda html: html,
     ) -> None:
+        keep_icons_open()
         logging.getLogger(CONNECTION_LOGGER).setLevel(logging.CRITICAL)
         for message in (CLOSED_CONNECTION, ODD_MESSAGE):
             warnings.filterwarnings("ignore", message=message)

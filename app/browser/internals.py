@@ -4,9 +4,13 @@
 """
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
+from zipfile import ZipFile
 
 import viser
+from viser import _gui_api, _gui_handles
+from viser._icons import ICONS_DIR
 from viser._messages import GuiUpdateMessage, RunJavascriptMessage
 
 SCENE_CANVAS = "canvas[data-engine]"
@@ -183,3 +187,24 @@ def send_value(control: viser.GuiInputHandle[Any]) -> None:
 def run_script(client: viser.ClientHandle, script: str) -> None:
     """Run a script in the page, after all messages sent before."""
     client.gui._websock_interface.queue_message(RunJavascriptMessage(source=script))
+
+
+def keep_icons_open() -> None:
+    """Keep viser's archive of icons open.
+
+    For each icon viser opens it and reads its list of thousands, half a second in all before a
+    first page is there.
+    """
+    for module in (_gui_api, _gui_handles):
+        module.svg_from_icon = icon_svg  # type: ignore[assignment]
+
+
+@cache
+def icon_svg(name: str) -> str:
+    """The drawing of an icon, as viser gives it to the page."""
+    return _icons().read(f"{name}.svg").decode("utf-8")
+
+
+@cache
+def _icons() -> ZipFile:
+    return ZipFile(ICONS_DIR / "tabler-icons.zip")

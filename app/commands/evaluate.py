@@ -2,36 +2,37 @@
 
 import argparse
 import json
-import math
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import asdict
+from collections.abc import Generator
+from contextlib import closing
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.cells import cell_len
 
-from app.analysis.evaluation import evaluate
-from app.analysis.notes import NO_TRUTH, no_pair_note, notes, truth_frame_note
+from app.analysis.method_files import method_files
+from app.commands.evaluate_row import Asked, Row, row_of, row_without_errors
+from app.commands.flags.engine_flags import add_engine_flag, choose_engine
+from app.commands.flags.execution_flags import add_execution_flags, check_jobs
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import (
-    Opening,
     add_recording_flags,
     files_read,
     opening_from,
     recording_paths,
+    with_absolute_paths,
 )
-from app.errors import UserError
+from app.execution.each import Call, Place, results
 from app.output.checks import TABLE, check_output
 from app.output.writing import write
+from app.study.software import software_digest
 from app.terminal.bar import Bar
 from app.terminal.output import terminal
-from estimator import ERROR_SYMBOLS, METRIC_INFO, Metrics, Parameters, to_nested
+from estimator import ERROR_SYMBOLS, METRIC_INFO, to_nested
 from robot_assets.printable import printable
 
 _MEANS = tuple(key for key, info in METRIC_INFO.items() if info.kind != "count")
@@ -40,23 +41,20 @@ _NUMBER = 6
 _TITLES = [info.heading.split() for info in METRIC_INFO.values()]
 
 
-def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
-    """Add the subcommand."""
-    parser = commands.add_parser(
-        "evaluate",
-        help="errors against the truth",
-        description=(
-            "Estimate every pair of frames at which the object moves, and compare with the truth. "
-            "The exit code is 1 where nothing could be evaluated."
-        ),
-        epilog=_definitions(),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
+    parser.description = (
+        "Estimate every pair of frames at which the object moves, and compare with the truth. "
+        "The exit code is 1 where nothing could be evaluated."
     )
+    parser.epilog = _definitions()
+    parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("paths", nargs="+", type=Path, metavar="PATH", help="recording or folder")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the table as JSON, too")
+    add_execution_flags(parser)
     add_recording_flags(parser)
+    add_engine_flag(parser)
     add_parameter_flags(parser)
-    parser.set_defaults(run=run)
 
 
 def _definitions() -> str:
@@ -79,24 +77,27 @@ def _definitions() -> str:
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
+    check_jobs(options)
+    if options.dask:
+        options = with_absolute_paths(options)
     parameters = parameters_from(options)
     opening = opening_from(options)
     paths = recording_paths(options.paths)
     if options.json:
         check_output(options.json, TABLE, [*paths, *files_read(options)])
-    rows: list[dict[str, Any]] = []
+    choose_engine(options.engine)
+    files = method_files([parameters.method])
+    asked = Asked(opening, parameters, files, software_digest(files))
     table = _Table([path.stem for path in paths])
     for line in table.heading():
         print(line)
-    console = terminal()
-    bar = Bar(console, len(paths)) if console else None
-    for path in paths:
-        with _shown(bar, len(rows), path.stem):
-            row, warnings = _row(path, opening, parameters)
-        rows.append(row)
-        print(table.line(path.stem, _cells(row)), flush=True)
-        for warning in warnings:
-            print(printable(warning), file=sys.stderr)
+    rows: list[dict[str, Any]] = []
+    with closing(_in_order(paths, asked, Place(options.jobs, options.dask, files))) as done:
+        for path, row in done:
+            rows.append(row.values | {"path": str(path)})
+            print(table.line(path.stem, _cells(row.values)), flush=True)
+            for warning in row.warnings:
+                print(printable(warning), file=sys.stderr)
     means = _means(rows)
     for mean in means:
         print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
@@ -106,40 +107,36 @@ def run(options: argparse.Namespace) -> int:
     return 0 if any(row["pairs"] is not None for row in rows) else 1
 
 
-@contextmanager
-def _shown(bar: Bar | None, finished: int, name: str) -> Iterator[None]:
-    """Progress bar below the table, while a recording is evaluated."""
-    if bar is None:
-        yield
-        return
-    bar.show(finished, name)
+def _in_order(
+    paths: list[Path], asked: Asked, place: Place
+) -> Generator[tuple[Path, Row], None, None]:
+    """Evaluate recordings, and yield each with its row in their order, below it a bar meanwhile."""
+    console = terminal()
+    bar = Bar(console, len(paths)) if console else None
+    waiting: dict[int, Row] = {}
+    shown = 0
+    # Workers of a cluster run in folders of their own.
+    opened = [path.absolute() for path in paths] if place.dask else paths
+    call = Call(partial(row_of, asked=asked), _lost)
     try:
-        yield
+        with closing(results(call, opened, place)) as done:
+            while shown < len(paths):
+                if bar:
+                    bar.show(shown + len(waiting), paths[shown].stem)
+                index, row = next(done)
+                waiting[index] = row
+                if bar and shown in waiting:
+                    bar.hide()
+                while shown in waiting:
+                    yield paths[shown], waiting.pop(shown)
+                    shown += 1
     finally:
-        bar.hide()
+        if bar:
+            bar.hide()
 
 
-def _row(path: Path, opening: Opening, parameters: Parameters) -> tuple[dict[str, Any], list[str]]:
-    """A recording's row of the table, and its warnings."""
-    row: dict[str, Any] = {"path": str(path), "scenario": None, "speed": None, "trial": None}
-    row |= dict.fromkeys(METRIC_INFO)
-    try:
-        with opening.open(path) as recording:
-            if source := recording.provenance:
-                row |= {"scenario": source.scenario, "speed": source.speed, "trial": source.trial}
-            metrics = evaluate(recording, parameters)
-            # After the evaluation: some things are found out only when frames are read.
-            warnings = [f"{path}: {sentence}" for sentence in notes(recording)]
-    except UserError as error:
-        return row, [str(error)]
-    if metrics is None:
-        return row, [*warnings, f"{path} {NO_TRUTH}."]
-    if metrics.pairs == 0:
-        known = "" if math.isnan(metrics.false_flow) else " Only the false flow is known."
-        warnings.append(f"{path} has {no_pair_note(parameters.n)}.{known}")
-    if opening.truth_frame is not None:
-        warnings.append(f"{path}: {truth_frame_note(opening.truth_frame)}.")
-    return row | _as_json(metrics), warnings
+def _lost(path: Path, reason: str) -> Row:
+    return row_without_errors(path, f"{path}: {reason}.")
 
 
 def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -158,10 +155,6 @@ def _means(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return means
 
 
-def _as_json(metrics: Metrics) -> dict[str, Any]:
-    return {k: None if math.isnan(v) else v for k, v in asdict(metrics).items()}
-
-
 def _cells(row: dict[str, Any]) -> list[str]:
     return [
         "-" if row.get(key) is None else info.text(row[key]) for key, info in METRIC_INFO.items()
@@ -176,6 +169,8 @@ class _Table:
     """
 
     def __init__(self, names: list[str]) -> None:
+        from rich.cells import cell_len
+
         longest = max(cell_len(printable(name)) for name in names)
         # Names of means are longer.
         self._widths = [max(20, longest + 1)]
@@ -191,6 +186,8 @@ class _Table:
 
     def line(self, name: str, cells: list[str]) -> str:
         """A line of the table."""
+        from rich.cells import cell_len
+
         first, *widths = self._widths
         aligned = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
         shown = printable(name)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from app.commands.export_frames import frame_of, frames_of, frames_text
 from app.commands.export_plots import make_clusters, make_plots
+from app.commands.flags.engine_flags import add_engine_flag, choose_engine
 from app.commands.flags.export_flags import (
     add_export_flags,
     figure_size,
@@ -33,22 +34,18 @@ if TYPE_CHECKING:
     from app.exports.figure_settings import FigureSettings
 
 
-def add_parser(commands: argparse._SubParsersAction) -> None:
-    """Add the subcommand."""
-    parser = commands.add_parser(
-        "export",
-        help="make a picture, a video, an offline page, plots or a table of a recording",
-        description=(
-            "Draw a recording as the app does, for print, for talks and for others, or write its "
-            "flow as numbers. The files say of themselves which recording they show, and with "
-            "which parameters."
-        ),
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
+    parser.description = (
+        "Draw a recording as the app does, for print, for talks and for others, or write its "
+        "flow as numbers. The files say of themselves which recording they show, and with "
+        "which parameters."
     )
     parser.add_argument("path", type=Path, metavar="PATH", help="a recording")
     add_export_flags(parser)
     add_recording_flags(parser)
+    add_engine_flag(parser)
     add_parameter_flags(parser)
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -64,6 +61,7 @@ def run(options: argparse.Namespace) -> int:
     library = Library([options.path], opening_from(options).open)
     entry = library.listing()[0]
     opened = library.open(entry)
+    choose_engine(options.engine)
     try:
         said = _MAKERS[kind](place, opened, parameters, options)
     finally:

@@ -23,21 +23,16 @@ _COLUMNS = (
 )
 
 
-def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
-    """Add the subcommand."""
-    parser = commands.add_parser(
-        "info",
-        help="what is in a recording",
-        description=(
-            "List the topics of an MCAP file with their types, counts, rates and longest gaps, "
-            "what each will be used as, and what the recording is as a whole. The exit code is 1 "
-            "where the file is not MCAP."
-        ),
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
+    parser.description = (
+        "List the topics of an MCAP file with their types, counts, rates and longest gaps, "
+        "what each will be used as, and what the recording is as a whole. The exit code is 1 "
+        "where the file is not MCAP."
     )
     parser.add_argument("path", type=Path, metavar="PATH", help="an MCAP file")
     parser.add_argument("--json", action="store_true", help="print JSON")
     add_recording_flags(parser)
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:

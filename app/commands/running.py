@@ -6,13 +6,20 @@ import logging
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from typing import Any, NoReturn
 
-from app.commands import evaluate, export, info, simulate, study, view
-from app.commands.flags.parameter_flags import register_method_files
-from app.errors import UserError
-from robot_assets.printable import printable
+from app.commands.signals import ending_at_once
 
+SUBCOMMANDS = {
+    "view": "look at recordings and tune the estimator in the browser",
+    "info": "what is in a recording",
+    "simulate": "make simulated recordings",
+    "evaluate": "errors against the truth",
+    "study": "the paper's tables and its figure of n, made again",
+    "export": "make a picture, a video, an offline page, plots or a table of a recording",
+}
+"""{subcommand, and its module in `app.commands`: its help}; only the one asked for is imported."""
 _LOG = logging.getLogger(__name__)
 _OURS = ("app", "estimator", "recordings", "robot_assets")
 _LOG_LEVELS = ("debug", "info", "warning", "error", "critical")
@@ -26,6 +33,8 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong in one sentence, without the usage in front of it."""
+        from robot_assets.printable import printable
+
         print(f"{self.prog}: {printable(message)}; see '{self.prog} --help'.", file=sys.stderr)
         raise SystemExit(2)
 
@@ -35,6 +44,8 @@ class LogFormatter(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         """The lines of a record, a traceback's included."""
+        from robot_assets.printable import printable
+
         return "\n".join(map(printable, super().format(record).split("\n")))
 
 
@@ -60,18 +71,36 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _run(arguments: Sequence[str]) -> int:
+    parser, subparsers = _parsers()
+    name = next((text for text in arguments if not text.startswith("-")), None)
+    if name in subparsers:
+        return _run_subcommand(name, subparsers[name], parser, arguments)
+    parser.parse_args(arguments)  # it tells the help, or what is wrong, and ends
+    parser.exit()
+
+
+def _run_subcommand(
+    name: str, subparser: argparse.ArgumentParser, parser: _Parser, arguments: Sequence[str]
+) -> int:
+    with ending_at_once():
+        from app.commands.flags.parameter_flags import register_method_files
+        from app.errors import UserError
+        from robot_assets.printable import printable
+
+        module = import_module(f"app.commands.{name}")
     try:
         register_method_files(arguments)
-        parser = _parser()
+        module.add_flags(subparser)
+        _add_log_level(subparser)
     except UserError as error:
         print(f"tofscope: {printable(str(error))}", file=sys.stderr)
         return 2
     options = parser.parse_args(arguments)
     _set_up_log(options.log_level)
     try:
-        return options.run(options)
+        return module.run(options)
     except UserError as error:
-        print(f"tofscope {options.command}: {printable(str(error))}", file=sys.stderr)
+        print(f"tofscope {name}: {printable(str(error))}", file=sys.stderr)
         return 1
     except Exception as error:
         # Errors of files have their name, and are sentences already: this is standard output's.
@@ -80,7 +109,7 @@ def _run(arguments: Sequence[str]) -> int:
         _LOG.exception("Unexpected error.")
         said = printable(f"{type(error).__name__}: {error}")
         print(
-            f"tofscope {options.command}: something unexpected went wrong ({said}); please report "
+            f"tofscope {name}: something unexpected went wrong ({said}); please report "
             "it with the lines above.",
             file=sys.stderr,
         )
@@ -92,24 +121,24 @@ def _discard_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _parser() -> _Parser:
-    """Parser of all subcommands; MethodError where flags of methods collide."""
+def _parsers() -> tuple[_Parser, dict[str, argparse.ArgumentParser]]:
+    """Parser of the command, and {name: parser} of its subcommands, without their own flags."""
     parser = _Parser(
         prog="tofscope",
         description="See and tune scene flow from miniature time-of-flight sensors.",
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (view, info, simulate, evaluate, study, export):
-        module.add_parser(commands)
-    for subcommand in commands.choices.values():
-        subcommand.add_argument(
-            "--log-level",
-            type=str.lower,
-            choices=_LOG_LEVELS,
-            default="warning",
-            help="least severe messages that are logged on standard error (default warning)",
-        )
-    return parser
+    return parser, {name: commands.add_parser(name, help=SUBCOMMANDS[name]) for name in SUBCOMMANDS}
+
+
+def _add_log_level(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--log-level",
+        type=str.lower,
+        choices=_LOG_LEVELS,
+        default="warning",
+        help="least severe messages that are logged on standard error (default warning)",
+    )
 
 
 def _set_up_log(level: str) -> None:

@@ -2,14 +2,17 @@
 
 import argparse
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 from app.commands.flags.simulation_flags import (
     ALL,
+    MAX_DURATION,
+    MAX_POSE_RATE,
     MAX_SPEED,
     MORE,
     check_simulation,
+    repetition_of,
     scenario_names,
 )
 from app.errors import InputError
@@ -21,6 +24,7 @@ from recordings.simulation import (
     SCENARIOS,
     TRIALS,
     Scenario,
+    write_repeated,
     write_simulation,
 )
 from robot_assets import load_rig, load_robot
@@ -30,20 +34,16 @@ _ENDING = ".mcap"
 _ONE_TRIAL = 1
 
 
-def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
-    """Add the subcommand."""
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
     scenarios = "; ".join(f"{s.name}: {s.text}" for s in SCENARIOS.values())
     noise = "; ".join(f"{n.name}: {n.text}" for n in NOISE_MODELS.values())
     imperfections = "; ".join(f"{i.name}: {i.text}" for i in IMPERFECTIONS.values())
-    parser = commands.add_parser(
-        "simulate",
-        help="make simulated recordings",
-        description=(
-            "Simulate the paper's experiments, and more: a Panda with sensors in a lab, and a "
-            "mannequin carried by a second Panda, or something else that moves, at 15 Hz, with the "
-            "truth of every point. The same arguments give the same recording. A simulated "
-            "recording that exists under the name is replaced; any other file is left alone."
-        ),
+    parser.description = (
+        "Simulate the paper's experiments, and more: a Panda with sensors in a lab, and a "
+        "mannequin carried by a second Panda, or something else that moves, at 15 Hz, with the "
+        "truth of every point. The same arguments give the same recording. A simulated "
+        "recording that exists under the name is replaced; any other file is left alone."
     )
     parser.add_argument(
         "scenarios",
@@ -109,7 +109,26 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
         metavar="FILE",
         help="rig file (TOML) of the sensors on the Panda (default: the paper's 24 sensors)",
     )
-    parser.set_defaults(run=run)
+    parser.add_argument(
+        "--duration",
+        type=float,
+        metavar="SECONDS",
+        help=(
+            f"make a recording that lasts so long, up to {MAX_DURATION:g} s: rays are cast once, "
+            f"and the frames of the scenario repeated to and fro, which the recording says "
+            f"(default: the scenario once)"
+        ),
+    )
+    parser.add_argument(
+        "--pose-rate",
+        type=int,
+        default=0,
+        metavar="HZ",
+        help=(
+            f"with --duration: joints and poses per second between the frames, up to "
+            f"{MAX_POSE_RATE} (default: those of the frames alone)"
+        ),
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -117,6 +136,7 @@ def run(options: argparse.Namespace) -> int:
     single = options.out.suffix == _ENDING and not options.out.is_dir()
     trials = options.trial or ([_ONE_TRIAL] if single else TRIALS)
     check_simulation(options.speed or [], trials, options.seed)
+    repetition = repetition_of(options.duration, options.pose_rate)
     robot, rig = load_robot(), load_rig(options.rig)
     rig.check_links(robot.links, robot.name)
     wanted = [
@@ -141,7 +161,8 @@ def run(options: argparse.Namespace) -> int:
     if not single:
         _make_folder(options.out)
     for (name, speed, trial), path in paths.items():
-        count = write_simulation(
+        write = partial(write_repeated, repetition=repetition) if repetition else write_simulation
+        count = write(
             path,
             SCENARIOS[name],
             speed=speed,

@@ -7,9 +7,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from time import monotonic
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from app.analysis.method_files import method_files
+from app.commands.flags.engine_flags import add_engine_flag, choose_engine
+from app.commands.flags.execution_flags import add_execution_flags, check_jobs
 from app.commands.flags.parameter_flags import (
     add_parameter_flags,
     method_name,
@@ -17,7 +19,7 @@ from app.commands.flags.parameter_flags import (
 )
 from app.commands.flags.recording_flags import add_recording_flags, opening_from, recording_paths
 from app.commands.flags.simulation_flags import ALL, check_simulation, scenario_names
-from app.commands.flags.study_flags import add_execution_flags, add_source_flags
+from app.commands.flags.study_flags import add_source_flags
 from app.commands.signals import STOPPED
 from app.errors import InputError
 from app.study.conditions import truth_frame_text
@@ -40,19 +42,15 @@ _SHOWN = ("table_1", "table_2")
 _OF_SIMULATION = ("scenario", "speed", "trial", "seed", "noise", "imperfections", "ablation")
 
 
-def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export the type)
-    """Add the subcommand."""
-    parser = commands.add_parser(
-        "study",
-        help="the paper's tables and its figure of n, made again",
-        description=(
-            "Make the paper's study again: simulate its 60 recordings (three scenarios, four "
-            "speeds, five trials), run every method on them, and write Tables I and II beside the "
-            "paper's own numbers, the sweep of n as a figure, further tables, and a page to read "
-            f"first, {PAGE}. With --recordings the same for recordings that are there. What is "
-            "finished is kept in the folder: the same command goes on where it was stopped. The "
-            "exit code is 1 where nothing could be evaluated."
-        ),
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
+    parser.description = (
+        "Make the paper's study again: simulate its 60 recordings (three scenarios, four "
+        "speeds, five trials), run every method on them, and write Tables I and II beside the "
+        "paper's own numbers, the sweep of n as a figure, further tables, and a page to read "
+        f"first, {PAGE}. With --recordings the same for recordings that are there. What is "
+        "finished is kept in the folder: the same command goes on where it was stopped. The "
+        "exit code is 1 where nothing could be evaluated."
     )
     parser.add_argument(
         "--out", type=Path, required=True, metavar="FOLDER", help="where everything is written"
@@ -80,17 +78,17 @@ def add_parser(commands: Any) -> None:  # noqa: ANN401 (argparse does not export
     add_source_flags(parser)
     add_execution_flags(parser)
     add_recording_flags(parser)
+    add_engine_flag(parser)
     add_parameter_flags(parser, leave_out=("method",))
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Run the subcommand."""
     begin = monotonic()
     plan = _plan(options)
-    if options.jobs < 1:
-        raise InputError(f"--jobs must be 1 or more, got {options.jobs}.")
+    check_jobs(options)
     check_folder(options.out)
+    choose_engine(options.engine)
     store = Store(options.out / "results", software_digest(plan.method_files))
     works, twice = _once_each(store, plan.works())
     left = [work for work in map(store.missing, works) if work]

@@ -5,13 +5,20 @@ import ipaddress
 import re
 import sys
 import threading
+from contextlib import ExitStack, suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from app.commands.flags.engine_flags import add_engine_flag
 from app.commands.flags.parameter_flags import add_parameter_flags, parameters_from
 from app.commands.flags.recording_flags import add_recording_flags, opening_from
 from app.commands.signals import ending_at_once, handled
+from estimator import ENGINES
 from recordings import sample_paths
 from robot_assets.printable import printable
+
+if TYPE_CHECKING:
+    from app.analysis.library import Library
 
 _LOOK_UP = 0.5  # seconds
 # A host is a name, an IPv4 address, or an IPv6 address in brackets; what else stands there could
@@ -19,13 +26,9 @@ _LOOK_UP = 0.5  # seconds
 _ORIGIN = re.compile(r"https?://(?:[a-z0-9_-]+(?:\.[a-z0-9_-]+)*|\[[0-9a-f:.]+\])(?::\d{1,5})?")
 
 
-def add_parser(commands: argparse._SubParsersAction) -> None:
-    """Add the subcommand."""
-    parser = commands.add_parser(
-        "view",
-        help="look at recordings and tune the estimator in the browser",
-        description="Serve a page that shows recordings and their scene flow. Ctrl-C ends it.",
-    )
+def add_flags(parser: argparse.ArgumentParser) -> None:
+    """Describe the subcommand, and add its flags."""
+    parser.description = "Serve a page that shows recordings and their scene flow. Ctrl-C ends it."
     parser.add_argument(
         "paths",
         nargs="*",
@@ -56,15 +59,16 @@ def add_parser(commands: argparse._SubParsersAction) -> None:
         ),
     )
     add_recording_flags(parser)
+    add_engine_flag(parser)
     add_parameter_flags(parser)
-    parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Serve until a signal ends it."""
     # viser takes a second to import, which `tofscope --help` need not wait for.
     with ending_at_once():
-        from app.analysis.estimates import Estimates, warm_up
+        from app.analysis.engine_switch import EngineSwitch
+        from app.analysis.estimates import Estimates
         from app.analysis.library import Library
         from app.server.server import Server
         from app.server.session import Shared
@@ -77,7 +81,9 @@ def run(options: argparse.Namespace) -> int:
             # The only recording there is must open; of several, a bad one is told on the page.
             library.release(library.open(entries[0]).entry)
 
-    ended, shared = threading.Event(), Shared(library, Estimates(), Reloads(), parameters)
+    ended, engine = threading.Event(), EngineSwitch()
+    shared = Shared(library, Estimates(), Reloads(), parameters, engine)
+    engine.begin(ENGINES[options.engine])
     with handled(lambda *_: ended.set()):
         server = Server(shared, options.host, options.port, options.embed_in)
         try:
@@ -85,14 +91,34 @@ def run(options: argparse.Namespace) -> int:
                 said = _warning(options.host, server.address_for_others)
                 print(printable(said), file=sys.stderr)
             print(printable(f"Tofscope is at {server.address}"), flush=True)
-            warm_up()
+            threading.Thread(target=_prepare, args=(library,), name="warm-up", daemon=True).start()
             # A signal may reach a thread of some library: the main thread, which alone runs its
             # handler, is not woken by it and has to look up by itself.
             while not ended.wait(_LOOK_UP):
                 pass
         finally:
+            engine.close()
             server.close()
     return 0
+
+
+def _prepare(library: "Library") -> None:
+    """Do what the first page needs and a browser is not there for yet, in the order of its needs.
+
+    The first recording stays open meanwhile, so that a session shares it.
+    """
+    from app.analysis.estimates import warm_up
+    from app.scene.shapes import robot_shape
+
+    first = next(iter(library.listing()), None)
+    with ExitStack() as opened:
+        with suppress(Exception):  # the session that meets it again tells of it
+            if first:
+                recording = library.open(first).recording
+                opened.callback(library.release, first)
+                if recording.robot:
+                    robot_shape(recording.robot)
+        warm_up()
 
 
 def _warning(host: str, address: str) -> str:

@@ -6,8 +6,6 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from PIL import Image, UnidentifiedImageError
-
 from app.errors import InputError
 
 GENERATOR = '<meta name="generator" content="Tofscope">'
@@ -122,6 +120,8 @@ def _is_parameters(path: Path) -> bool:
 
 
 def _is_picture(path: Path) -> bool:
+    from PIL import Image, UnidentifiedImageError
+
     try:
         with Image.open(path) as picture:
             return picture.info.get("Software") == "Tofscope"

@@ -3,8 +3,6 @@
 import zipfile
 from pathlib import Path
 
-from PIL import Image, UnidentifiedImageError
-
 from app.output.checks import PICTURE, OutputKind
 
 MADE_WITH = "Made with Tofscope"
@@ -42,6 +40,8 @@ def _is_mp4(path: Path) -> bool:
 
 
 def _is_gif(path: Path) -> bool:
+    from PIL import Image, UnidentifiedImageError
+
     try:
         with Image.open(path) as picture:
             comment = picture.info.get("comment", b"")

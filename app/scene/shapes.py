@@ -1,6 +1,7 @@
 """Meshes prepared for the browser: welded, split by colour, and cached."""
 
 import hashlib
+import threading
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -17,6 +18,8 @@ _GRAIN = 1 / 4096  # metres, a power of two: vertices on such a grid are sent in
 _COARSE = 500  # faces: finer pieces are drawn with half of theirs
 # Faces that meet at a larger angle than this keep a sharp edge; others are smooth-shaded.
 _EDGE = np.radians(35.0)
+_making = threading.Lock()
+"""A shape takes a second: who asks for it meanwhile waits, instead of making it, too."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +50,14 @@ class RobotShape:
     digest: str
 
 
-@lru_cache(maxsize=4)
 def robot_shape(robot: Robot) -> RobotShape:
     """The visual meshes of a robot, welded and split by link and colour."""
+    with _making:
+        return _robot_shape(robot)
+
+
+@lru_cache(maxsize=4)
+def _robot_shape(robot: Robot) -> RobotShape:
     links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
     digest = hashlib.sha256()
     for link, parts in links.items():

@@ -10,6 +10,7 @@ from uuid import uuid4
 import viser
 
 from app.analysis.catalogue import Catalogue
+from app.analysis.engine_switch import COMPILING, EngineSwitch
 from app.analysis.estimates import Estimates
 from app.analysis.library import Entry, Library
 from app.analysis.live_timeline import LiveTimeline
@@ -24,6 +25,7 @@ from app.scene.settings import ViewSettings
 from app.session.choice import Choice
 from app.session.command import Command
 from app.session.commands import (
+    FollowEngine,
     Move,
     OpenFirst,
     OpenRecording,
@@ -57,6 +59,7 @@ class Shared:
         estimates: cache of estimates.
         reloads: ended sessions, for reloads of their pages.
         parameters: initial ones of a session.
+        engine: of the estimates.
         surveys: of whole recordings, computed in the background.
         catalogue: of what is in the recordings, found out in the background.
     """
@@ -65,6 +68,7 @@ class Shared:
     estimates: Estimates
     reloads: Reloads
     parameters: Parameters
+    engine: EngineSwitch = field(default_factory=EngineSwitch)
     surveys: Surveys = field(init=False)
     catalogue: Catalogue = field(init=False)
 
@@ -117,11 +121,16 @@ class Session:
             if saved:
                 self._queue.post(Restore(saved))
             workbench, page = self._build(entries, saved)
+            engine = self._shared.engine
+            leave = engine.subscribe(lambda said: self._queue.post(FollowEngine(said)))
+            if engine.compiling:
+                self._queue.post(FollowEngine(COMPILING))
             try:
                 self._serve(workbench, page)
                 if ended := workbench.saved():
                     self._shared.reloads.keep(token, ended)
             finally:
+                leave()
                 workbench.close()
         except Exception:
             # A client that disconnects takes its page with it, also while that is being built.

@@ -10,6 +10,7 @@ from app.errors import InputError
 from app.session.command import Background, LatestOfEach, LatestWins, Repeated
 from app.session.followed_survey import SurveyUpdate
 from app.session.links import SavedSession
+from app.session.outbox import Notice
 from app.session.tasks import TaskEvent
 from app.session.workbench import Workbench
 
@@ -48,6 +49,18 @@ class Restore(LatestWins):
         """Restore it, unless another recording was opened instead."""
         if workbench.opened is not None and workbench.opened.entry.label == self.saved.label:
             workbench.restore(self.saved)
+
+
+@dataclass(frozen=True)
+class FollowEngine(LatestWins):
+    """Draw with the engine that is now in use, and tell what there is to tell of it."""
+
+    said: str
+
+    def apply(self, workbench: Workbench) -> None:
+        """Tell; the drawing that follows every command sees the engine."""
+        if self.said:
+            workbench.outbox.append(Notice("Estimator", self.said, seconds=60.0, replaces=True))
 
 
 @dataclass(frozen=True)

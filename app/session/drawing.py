@@ -8,7 +8,7 @@ from app.analysis.selection import Selection, cluster_of
 from app.scene.canvas import Canvas
 from app.scene.framing import Framing
 from app.scene.scene import Scene
-from estimator import Parameters
+from estimator import Engine, Parameters, current_engine
 
 
 class Drawing:
@@ -31,7 +31,7 @@ class Drawing:
     ) -> None:
         self._client, self._estimates = client, estimates
         self._scene, self._framing = scene, framing
-        self._drawn: tuple[Opened, int, Parameters, Comparison | None] | None = None
+        self._drawn: tuple[Opened, int, Parameters, Comparison | None, Engine] | None = None
         self._selection = Selection()
         self.pair: Pair | None = None
         self.other: Pair | None = None
@@ -45,7 +45,7 @@ class Drawing:
         Raises:
             UserError: the other pair of the comparison could not be estimated; this one is drawn.
         """
-        wanted = (opened, frame, parameters, comparison)
+        wanted = (opened, frame, parameters, comparison, current_engine())
         if wanted == self._drawn:
             return
         self.pair = self.other = None

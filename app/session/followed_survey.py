@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from app.analysis.library import Opened
 from app.analysis.survey import Survey
 from app.analysis.surveys import Surveys
-from estimator import Parameters
+from estimator import Engine, Parameters, current_engine
 
 
 @dataclass(frozen=True)
@@ -14,11 +14,11 @@ class SurveyUpdate:
     """Progress of a survey.
 
     Attributes:
-        requested: recording and parameters of the request.
+        requested: recording, parameters and engine of the request.
         survey: as far as it is filled.
     """
 
-    requested: tuple[Opened, Parameters]
+    requested: tuple[Opened, Parameters, Engine]
     survey: Survey
 
 
@@ -38,13 +38,13 @@ class FollowedSurvey:
     def __init__(self, surveys: Surveys, notify: Callable[[SurveyUpdate], None]) -> None:
         self._surveys = surveys
         self._notify = notify
-        self._requested: tuple[Opened, Parameters] | None = None
+        self._requested: tuple[Opened, Parameters, Engine] | None = None
         self.survey: Survey | None = None
         self.revision = 0
 
     def follows(self, opened: Opened, parameters: Parameters) -> bool:
-        """Whether the survey of a recording with these parameters is followed."""
-        return self._requested == (opened, parameters)
+        """Whether the survey of a recording with these parameters, by this engine, is followed."""
+        return self._requested == (opened, parameters, current_engine())
 
     def follow(self, opened: Opened, parameters: Parameters) -> None:
         """Request the survey of a recording with these parameters, unless it is followed already.
@@ -55,10 +55,10 @@ class FollowedSurvey:
         """
         if self.follows(opened, parameters):
             return
-        requested = (opened, parameters)
+        requested = (opened, parameters, current_engine())
         self._requested, self.survey, notify = requested, None, self._notify
         self._surveys.request(
-            self, *requested, lambda survey: notify(SurveyUpdate(requested, survey))
+            self, opened, parameters, lambda survey: notify(SurveyUpdate(requested, survey))
         )
 
     def receive(self, update: SurveyUpdate) -> None:

@@ -10,13 +10,21 @@ import estimator
 import recordings
 import robot_assets
 from app.analysis.method_files import content_digest
+from estimator import current_engine
 
+OTHER_VERSION = (
+    "the worker has another version of Tofscope or of a package that it computes with; give all "
+    "workers the same"
+)
+"""Why a worker of a cluster is refused."""
 _PACKAGES = (
     "numpy",
     "scipy",
     "scikit-learn",
     "open3d",
     "open3d-cpu",
+    "numba",
+    "llvmlite",
     "embreex",
     "trimesh",
     "yourdfpy",
@@ -45,16 +53,20 @@ _OF_APP = (
 """Files of `app` that affect results."""
 
 
-@cache
 def software_digest(method_files: tuple[str, ...] = ()) -> str:
-    """SHA-256 of the source, of `versions`, and of method files.
+    """SHA-256 of the source, of `versions`, of the engine's name, and of method files.
 
     Results computed under another digest are not reused.
 
     Args:
         method_files: FILE.py:NAME of each method from a file.
     """
-    digest = hashlib.sha256(repr(sorted(versions().items())).encode())
+    return _digest(method_files, current_engine().name)
+
+
+@cache
+def _digest(method_files: tuple[str, ...], engine: str) -> str:
+    digest = hashlib.sha256(repr((engine, sorted(versions().items()))).encode())
     for room in (estimator, recordings, robot_assets):
         folder = Path(str(room.__file__)).parent
         for path in sorted([*folder.rglob("*.py"), *folder.rglob("*.toml")]):

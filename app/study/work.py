@@ -8,14 +8,12 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from time import thread_time
 
-from threadpoolctl import threadpool_limits
-
 from app.analysis.evaluation import Evaluation, EvaluationCase, evaluate_all
 from app.analysis.notes import notes
 from app.errors import UserError
 from app.output.scratch import scratch_folder
 from app.study.diagnosis import diagnose_missing_flow, diagnose_wrong_alignment
-from app.study.software import software_digest
+from app.study.software import OTHER_VERSION, software_digest
 from estimator import Metrics, Parameters
 from recordings import Recording, open_recording
 from recordings.simulation import NOISE_MODELS, SCENARIOS, write_simulation
@@ -153,12 +151,10 @@ def run_work(work: Work, software: str, scratch: Path | None = None) -> Outcome:
         software: `software_digest` of the caller; a cluster's worker may have another version.
         scratch: folder for the simulated file, None for the system's.
     """
+    from threadpoolctl import threadpool_limits
+
     if software != software_digest(work.method_files):
-        return Outcome(
-            work.source,
-            failure=f"{work.source.name}: the worker has another version of Tofscope or of a "
-            "package that it computes with; give all workers the same.",
-        )
+        return Outcome(work.source, failure=f"{work.source.name}: {OTHER_VERSION}.")
     try:
         # Cores are divided by recordings; further threads would compete for them.
         with threadpool_limits(1), _opened(work.source, scratch) as (recording, seconds):

@@ -2,6 +2,7 @@
 
 from recordings.simulation.imperfections import IMPERFECTIONS, Imperfection
 from recordings.simulation.noise import NOISE_MODELS, NoiseModel
+from recordings.simulation.repeating import Repetition, write_repeated
 from recordings.simulation.scenario import PAPER_SCENARIOS, SCENARIOS, SPEEDS, TRIALS, Scenario
 from recordings.simulation.simulate import simulate, write_simulation
 
@@ -14,7 +15,9 @@ __all__ = [
     "TRIALS",
     "Imperfection",
     "NoiseModel",
+    "Repetition",
     "Scenario",
     "simulate",
+    "write_repeated",
     "write_simulation",
 ]

@@ -5,9 +5,9 @@ duration of the ramps in seconds; the first of its actors is the target.
 """
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from recordings.simulation.body import FURTHER, TARGET, Actor
@@ -15,6 +15,9 @@ from recordings.simulation.mannequin import HIP, SHOULDER, mannequin, person
 from recordings.simulation.motion import Swing, Translation, Turn
 from recordings.simulation.surface import CARDBOARD, CLOTH, PLASTIC
 from recordings.simulation.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    import trimesh
 
 ActorFactory = Callable[[float, NDArray[np.float64], float], list[Actor]]
 
@@ -27,6 +30,8 @@ _HAND = (0.50, 0.0, -0.36)  # of the mannequin, in its frame
 
 def walking(speed: float, offset: NDArray[np.float64], ramp: float) -> list[Actor]:
     """A person walks up to the robot: two steps of 0.52 m, with arms and legs swinging."""
+    import trimesh
+
     trajectory = Trajectory(np.array([[0.0, -2 * _STEP, 0.0]]), speed, ramp)
     # High enough that the toes of the rear leg, which point down, stay above the floor.
     walk = Translation(np.array([0.0, 1.70, _CHEST + 0.035]) + offset, trajectory)
@@ -63,13 +68,17 @@ def crossing(speed: float, offset: NDArray[np.float64], ramp: float) -> list[Act
 
 def fast(speed: float, offset: NDArray[np.float64], ramp: float) -> list[Actor]:
     """A parcel flies past along x."""
+    import trimesh
+
     trajectory = Trajectory(np.array([[2.2, 0.0, 0.0]]), speed, ramp)
     motion = Translation(np.array([-1.1, 0.70, 0.40]) + offset, trajectory)
     return [Actor(TARGET, trimesh.creation.box((0.50, 0.30, 0.60)), CARDBOARD, motion)]
 
 
-def _on_a_post(height: float) -> trimesh.Trimesh:
+def _on_a_post(height: float) -> "trimesh.Trimesh":
     """Mannequin on a post, with its chest at `height` metres."""
+    import trimesh
+
     length = height - 0.40 - _FLOOR
     post = trimesh.creation.cylinder(0.03, length)
     post.apply_translation((0.0, 0.0, _FLOOR - height + length / 2))

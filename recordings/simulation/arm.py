@@ -1,13 +1,16 @@
 """Panda whose flange rests or is translated along a trajectory."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from recordings.simulation.inverse_kinematics import FLANGE, inverse_kinematics
 from recordings.simulation.trajectory import Trajectory
 from robot_assets import Robot, Transform
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 _WAYPOINT_SPACING = 0.01  # metres; the spline between them stays within micrometres of the path
 _STEP = 1e-4  # seconds, of the central difference that gives velocities
@@ -73,7 +76,9 @@ class Arm:
         poses = self._robot.link_poses(positions)
         return {link: self._T_fixed_base @ pose for link, pose in poses.items()}
 
-    def _joints_along(self, trajectory: Trajectory) -> CubicSpline:
+    def _joints_along(self, trajectory: Trajectory) -> "CubicSpline":
+        from scipy.interpolate import CubicSpline
+
         start = self._robot.link_poses(self._posture)[FLANGE]
         count = int(np.ceil(trajectory.length / _WAYPOINT_SPACING)) + 1
         waypoints = np.linspace(0.0, trajectory.length, count)

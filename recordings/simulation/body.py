@@ -1,14 +1,17 @@
 """Objects of a scene: meshes with a surface, at rest or moving."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from recordings.simulation.motion import Motion
 from recordings.simulation.surface import Surface
 from robot_assets import Transform
+
+if TYPE_CHECKING:
+    import trimesh
 
 SURROUNDINGS, TARGET, OWN_ROBOT, SECOND_ROBOT, FURTHER = 0, 1, 2, 3, 32
 """Numbers of objects in the truth.
@@ -27,7 +30,7 @@ class Piece:
         surface: of the mesh.
     """
 
-    mesh: trimesh.Trimesh
+    mesh: "trimesh.Trimesh"
     surface: Surface
 
 
@@ -44,7 +47,7 @@ class Body:
     """
 
     number: int
-    mesh: trimesh.Trimesh
+    mesh: "trimesh.Trimesh"
     surface: Surface
     T_fixed_body: Transform
     rate: Transform
@@ -55,7 +58,7 @@ class Body:
         spin = self.rate[:3, :3] @ self.T_fixed_body[:3, :3].T
         return np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
 
-    def posed_mesh(self) -> trimesh.Trimesh:
+    def posed_mesh(self) -> "trimesh.Trimesh":
         """The mesh in the fixed frame."""
         return self.mesh.copy().apply_transform(self.T_fixed_body)
 
@@ -78,7 +81,7 @@ class Actor:
     """
 
     number: int
-    mesh: trimesh.Trimesh
+    mesh: "trimesh.Trimesh"
     surface: Surface
     motion: Motion
 

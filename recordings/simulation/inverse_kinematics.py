@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from robot_assets import Robot, Transform
 
@@ -48,6 +47,8 @@ def inverse_kinematics(
 
 
 def _difference(wanted: Transform, current: Transform) -> np.ndarray:
+    from scipy.spatial.transform import Rotation
+
     rotation = Rotation.from_matrix(wanted[:3, :3] @ current[:3, :3].T).as_rotvec()
     return np.concatenate([wanted[:3, 3] - current[:3, 3], rotation])
 

@@ -1,9 +1,12 @@
 """Meshes of a mannequin and a person, each part lofted over cross-sections."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
+
+if TYPE_CHECKING:
+    import trimesh
 
 # Cross-sections from the lower to the upper end: height, half width, half depth, and offset of the
 # centre to the front (-y), in metres. The origin is the centre of the chest; the body faces -y.
@@ -72,11 +75,13 @@ _PLATE = (0.10, 0.06, 0.10)
 _RINGS, _SEGMENTS = 48, 40
 
 
-def mannequin() -> trimesh.Trimesh:
+def mannequin() -> "trimesh.Trimesh":
     """Upper half of a mannequin, about 0.97 m high, as closed parts that overlap.
 
     The origin is the centre of the chest, z points up, and the mannequin faces -y.
     """
+    import trimesh
+
     left = _left_arm(_SPREAD)
     right = left.copy()
     right.apply_transform(trimesh.transformations.reflection_matrix((0, 0, 0), (1, 0, 0)))
@@ -85,26 +90,33 @@ def mannequin() -> trimesh.Trimesh:
     return trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD), left, right, plate])  # type: ignore[return-value]
 
 
-def person() -> tuple[trimesh.Trimesh, trimesh.Trimesh, trimesh.Trimesh]:
+def person() -> "tuple[trimesh.Trimesh, trimesh.Trimesh, trimesh.Trimesh]":
     """Person of about 1.75 m: head and torso, left arm, left leg, in the frame of the chest.
 
     The limbs hang straight. The soles are 1.20 m below the centre of the chest.
     """
+    import trimesh
+
     body = trimesh.util.concatenate([_loft(_TORSO), _loft(_HEAD)])
     leg = _loft(_LEG)
     leg.apply_translation(HIP)
     return body, _left_arm(_HANGING), leg  # type: ignore[return-value]
 
 
-def _left_arm(spread: float) -> trimesh.Trimesh:
+def _left_arm(spread: float) -> "trimesh.Trimesh":
     """Left arm at its shoulder, `spread` rad away from the body."""
+    import trimesh
+
     arm = _loft(_ARM)
     arm.apply_transform(trimesh.transformations.rotation_matrix(-spread, (0.0, 1.0, 0.0)))
     return arm.apply_translation(SHOULDER)
 
 
-def _loft(sections: tuple[tuple[float, float, float, float], ...]) -> trimesh.Trimesh:
+def _loft(sections: tuple[tuple[float, float, float, float], ...]) -> "trimesh.Trimesh":
     """Closed surface with elliptic cross-sections, interpolated smoothly between those given."""
+    import trimesh
+    from scipy.interpolate import PchipInterpolator
+
     table = np.array(sections)
     # Denser at the ends, which are round.
     along = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, _RINGS))

@@ -5,7 +5,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from recordings.simulation.trajectory import Trajectory
 from robot_assets import Transform
@@ -84,6 +83,8 @@ class Turn:
 
     def pose(self, time: float) -> Transform:
         """T_fixed_body (4, 4)."""
+        from scipy.spatial.transform import Rotation
+
         angle = self.start + self.trajectory.travelled(time) / self._radius
         pose = np.eye(4)
         pose[:3, :3] = Rotation.from_euler("z", angle).as_matrix()
@@ -141,6 +142,8 @@ class Swing:
         return turned + self._angle_rate(time) * (self.parent.pose(time) @ turning)
 
     def _turned(self, angle: float) -> Transform:
+        from scipy.spatial.transform import Rotation
+
         pose = np.eye(4)
         pose[:3, :3] = Rotation.from_euler("x", angle).as_matrix()
         pose[:3, 3] = self.joint - pose[:3, :3] @ self.joint

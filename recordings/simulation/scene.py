@@ -1,7 +1,6 @@
 """Scene of a scenario at any time: the robots, the moving bodies, and the lab."""
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from recordings.object_meshes import ObjectMesh
@@ -113,6 +112,8 @@ def _second_arm(
     robot: Robot, mannequin_start: NDArray[np.float64], trajectory: Trajectory | None
 ) -> Arm:
     """Robot that holds the mannequin by the plate on its back."""
+    import trimesh
+
     T_fixed_base = trimesh.transformations.rotation_matrix(-np.pi / 2, (0.0, 0.0, 1.0))
     T_fixed_base[:3, 3] = _SECOND_ROBOT_POSITION
     posture = _posture(_SECOND_POSTURE)

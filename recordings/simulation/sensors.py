@@ -1,13 +1,16 @@
 """Ray casting of a rig's zones into the scene, several rays per zone."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 from recordings.simulation.edges import Edges, ZoneHits, edges
 from robot_assets import RayCaster, Rig, SensorModel, zone_rays
+
+if TYPE_CHECKING:
+    import trimesh
 
 _SUB_RAYS = 4  # along each side of a zone
 _FAR = 1e3  # metres, in place of inf for rays that hit nothing
@@ -41,7 +44,9 @@ class PieceCaster:
         pieces: {index: mesh in the fixed frame}.
     """
 
-    def __init__(self, pieces: dict[int, trimesh.Trimesh]) -> None:
+    def __init__(self, pieces: "dict[int, trimesh.Trimesh]") -> None:
+        import trimesh
+
         self._caster = RayCaster(trimesh.util.concatenate(list(pieces.values())))  # type: ignore[arg-type]
         # The last entry is for rays that hit no triangle, whose index is -1.
         self._piece = np.concatenate(

@@ -20,7 +20,8 @@ from robot_assets import Rig, Robot, load_rig, rig_text
 
 RATE = 15.0
 """Frames per second (paper, section III-A)."""
-_FIRST_STAMP = 1.0  # seconds; a stamp of 0 means "unknown" to ROS
+FIRST_STAMP = 1.0
+"""Seconds; a stamp of 0 means "unknown" to ROS."""
 _OFFSET = 0.015  # metres, largest random offset of a trial's start along each axis
 RAMP = 0.25
 """Seconds of acceleration and of deceleration where there are ramps."""
@@ -87,7 +88,7 @@ def simulate(
         # The stamp is wrong for the readings only; joints and poses are those at the stamp.
         target = scene.target(stamp)
         yield Frame(
-            stamp=_FIRST_STAMP + stamp,
+            stamp=FIRST_STAMP + stamp,
             ranges=report.ranges,
             status=report.status,
             joint_positions=scene.own.joint_positions(stamp),
@@ -149,6 +150,64 @@ def _truth(
     return PointTruth(points, velocity, number, sensor, row * valid.shape[2] + column)
 
 
+def scene_of(
+    scenario: Scenario,
+    *,
+    speed: float,
+    trial: int,
+    seed: int,
+    imperfections: Sequence[str],
+    robot: Robot,
+) -> Scene:
+    """The scene that `simulate` plays with the same arguments."""
+    rng = np.random.default_rng(_key(scenario, speed, trial, seed))
+    return _scene(scenario, speed, robot, rng, in_order(imperfections))
+
+
+def provenance(
+    path: Path,
+    scenario: Scenario,
+    *,
+    speed: float,
+    trial: int,
+    seed: int,
+    noise: NoiseModel,
+    imperfections: Sequence[str],
+    rig: Rig,
+    flags: str = "",
+) -> Provenance:
+    """Provenance of a simulation in a file, with the command that makes it.
+
+    Args:
+        path: of the file.
+        scenario: that is played.
+        speed: m/s of the target.
+        trial: number of the trial.
+        seed: of the random numbers.
+        noise: model of the errors of readings.
+        imperfections: names of the enabled ones.
+        rig: the sensors.
+        flags: further ones of the command, each with a space after it.
+    """
+    imperfections = in_order(imperfections)
+    with_rig = "" if rig_text(rig) == rig_text(load_rig()) else f"--rig {RIG_ATTACHMENT} "
+    also = f"--imperfections {' '.join(imperfections)} " if imperfections else ""
+    return Provenance(
+        simulated=True,
+        scenario=scenario.name,
+        speed=speed,
+        trial=trial,
+        seed=seed,
+        noise=f"{noise.name}: {noise.text}",
+        command=(
+            f"tofscope simulate {scenario.name} --speed {speed:g} --trial {trial} --seed {seed} "
+            f"--noise {noise.name} {also}{with_rig}{flags}--out {path.name}"
+        ),
+        imperfections=imperfections,
+        rig=rig.name,
+    )
+
+
 def write_simulation(
     path: Path,
     scenario: Scenario,
@@ -169,27 +228,11 @@ def write_simulation(
         RecordingError: the file cannot be written.
         RigError: a sensor is on a link that the robot does not have.
     """
-    imperfections = in_order(imperfections)
-    with_rig = "" if rig_text(rig) == rig_text(load_rig()) else f"--rig {RIG_ATTACHMENT} "
-    also = f"--imperfections {' '.join(imperfections)} " if imperfections else ""
-    provenance = Provenance(
-        simulated=True,
-        scenario=scenario.name,
-        speed=speed,
-        trial=trial,
-        seed=seed,
-        noise=f"{noise.name}: {noise.text}",
-        command=(
-            f"tofscope simulate {scenario.name} --speed {speed:g} --trial {trial} --seed {seed} "
-            f"--noise {noise.name} {also}{with_rig}--out {path.name}"
-        ),
-        imperfections=imperfections,
-        rig=rig.name,
-    )
+    what = {"speed": speed, "trial": trial, "seed": seed, "imperfections": imperfections}
+    about = provenance(path, scenario, noise=noise, rig=rig, **what)
     count = 0
-    rng = np.random.default_rng(_key(scenario, speed, trial, seed))
-    meshes = _scene(scenario, speed, robot, rng, imperfections).meshes
-    with RecordingWriter(path, robot, rig, provenance, meshes) as writer:
+    meshes = scene_of(scenario, robot=robot, **what).meshes
+    with RecordingWriter(path, robot, rig, about, meshes) as writer:
         for frame in simulate(
             scenario,
             speed=speed,

@@ -6,8 +6,6 @@ is most of the view of a sensorised arm.
 
 from dataclasses import dataclass
 
-import trimesh
-
 from recordings.simulation.body import Piece
 from recordings.simulation.surface import CARDBOARD, CLOTH, PAINT, SCREEN, STEEL, WOOD
 
@@ -105,6 +103,8 @@ def surroundings(pedestal: bool = True) -> list[Piece]:
     Args:
         pedestal: whether to include the second robot's pedestal.
     """
+    import trimesh
+
     pieces: list[Piece] = []
     for boxes, surface in _FURNITURE:
         if boxes is _PEDESTAL and not pedestal:

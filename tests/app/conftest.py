@@ -1,6 +1,8 @@
 """Fixtures shared by the app's tests."""
 
 import time
+from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +13,7 @@ from app.server.session import Session, Shared
 from app.session.reload import Reloads
 from estimator import Parameters
 from recordings import RecordingError
+from tests.app.dask_cluster import dask_scheduler
 from tests.app.fake_client import FakeClient
 from tests.app.fake_recordings import fake_recording
 from tests.app.waiting import until
@@ -78,3 +81,10 @@ def session(client, shared, runs):
     session.close()
     session.join(10)
     assert not session._thread.is_alive()
+
+
+@pytest.fixture
+def scheduler(tmp_path: Path) -> Iterator[str]:
+    """Address of a scheduler with two worker processes, started for the test."""
+    with dask_scheduler(tmp_path) as address:
+        yield address

@@ -64,7 +64,7 @@ def play_only(tab: Tab, start: float, end: float) -> range:
         drag(tab, before, after, RANGE)
         tab.page.mouse.up()
         tab.until(lambda: said.inner_text().startswith("plays frames"))
-        tab.page.wait_for_timeout(300)  # what the session knows of it has come back
+        tab.page.wait_for_timeout(1000)  # what the session knows of it has come back
     first, last = (int(word) for word in said.inner_text().split() if word.isdigit())
     return range(first, last + 1)
 

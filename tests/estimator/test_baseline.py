@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from estimator import Label, Parameters, estimate_scene_flow
+from tests.estimator.engines import EXACT, using
 from tests.estimator.judge import judge
 from tests.estimator.scenes import cluttered, moved_patches
 
@@ -52,12 +53,14 @@ def test_its_round_is_the_first_of_algorithm_1(seed):
             assert first.fitness == again.fitness
 
 
-def test_a_second_implementation_says_the_same():
+@pytest.mark.parametrize("engine", EXACT, ids=lambda engine: engine.name)
+def test_a_second_implementation_says_the_same(engine):
     for seed in range(40):
         scene = cluttered(seed)
-        flow = estimate_scene_flow(
-            scene.source, scene.target, INTERVAL, Parameters(method="baseline")
-        )
+        with using(engine):
+            flow = estimate_scene_flow(
+                scene.source, scene.target, INTERVAL, Parameters(method="baseline")
+            )
         label, velocity = judge(scene.source, scene.target, INTERVAL, gate=False)
         assert flow.label.tolist() == label.tolist(), f"scene {seed}"
         assert flow.velocity == pytest.approx(velocity, abs=1e-9, nan_ok=True), f"scene {seed}"

@@ -8,6 +8,7 @@ from sklearn.cluster import HDBSCAN
 
 from estimator import Parameters, Window, window_of_pair
 from estimator.clustering import clusters_of
+from tests.estimator.engines import EXACT, using
 from tests.estimator.scenes import cluttered, moved_patches
 
 
@@ -32,10 +33,12 @@ def labels_of(window: Window, parameters: Parameters) -> tuple[np.ndarray, np.nd
         {"allow_single_cluster": True},
     ],
 )
+@pytest.mark.parametrize("engine", EXACT, ids=lambda engine: engine.name)
 @pytest.mark.parametrize("seed", range(5))
-def test_scikit_learn_finds_the_same_with_the_target_first(seed, settings):
+def test_scikit_learn_finds_the_same_with_the_target_first(seed, engine, settings):
     scene, parameters = cluttered(seed), Parameters(**settings)
-    target, source = labels_of(window_of_pair(scene.source, scene.target, 1.0), parameters)
+    with using(engine):
+        target, source = labels_of(window_of_pair(scene.source, scene.target, 1.0), parameters)
     expected = HDBSCAN(
         min_cluster_size=parameters.min_cluster_size,
         min_samples=parameters.min_samples,

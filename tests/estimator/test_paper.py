@@ -9,6 +9,7 @@ import estimator.paper
 from estimator import Label, Parameters, Window, estimate_scene_flow, window_of_pair
 from estimator.flow import Cluster
 from estimator.paper import classify
+from tests.estimator.engines import EXACT, using
 from tests.estimator.judge import judge
 from tests.estimator.scenes import cluttered, corner, moved_patches
 
@@ -164,12 +165,16 @@ def test_rounds_are_bounded(monkeypatch):
     assert result.reason == "Unassigned: fitness not above γ 0.7 in 1 rounds."
 
 
+@pytest.mark.parametrize("engine", EXACT, ids=lambda engine: engine.name)
 @pytest.mark.parametrize("n_min", [20, 60])
-def test_a_second_implementation_says_the_same(n_min):
+def test_a_second_implementation_says_the_same(n_min, engine):
     labels = np.zeros(3, dtype=int)
     for seed in range(60):
         scene = cluttered(seed)
-        flow = estimate_scene_flow(scene.source, scene.target, INTERVAL, Parameters(n_min=n_min))
+        with using(engine):
+            flow = estimate_scene_flow(
+                scene.source, scene.target, INTERVAL, Parameters(n_min=n_min)
+            )
         label, velocity = judge(scene.source, scene.target, INTERVAL, n_min=n_min)
         assert flow.label.tolist() == label.tolist(), f"scene {seed}"
         assert flow.velocity == pytest.approx(velocity, abs=1e-9, nan_ok=True), f"scene {seed}"
@@ -177,6 +182,7 @@ def test_a_second_implementation_says_the_same(n_min):
     assert (labels > 1000).all(), "the scenes must show every label"
 
 
+@pytest.mark.parametrize("engine", EXACT, ids=lambda engine: engine.name)
 @given(
     seed=st.integers(0, 2**32 - 1),
     gamma=st.floats(0, 1),
@@ -186,7 +192,7 @@ def test_a_second_implementation_says_the_same(n_min):
     min_cluster_size=st.integers(2, 50),
 )
 def test_a_second_implementation_says_the_same_for_any_parameters(
-    seed, gamma, delta, n_min, reach, min_cluster_size
+    engine, seed, gamma, delta, n_min, reach, min_cluster_size
 ):
     scene = cluttered(seed)
     parameters = Parameters(
@@ -196,7 +202,8 @@ def test_a_second_implementation_says_the_same_for_any_parameters(
         max_correspondence_distance=reach,
         min_cluster_size=min_cluster_size,
     )
-    flow = estimate_scene_flow(scene.source, scene.target, INTERVAL, parameters)
+    with using(engine):
+        flow = estimate_scene_flow(scene.source, scene.target, INTERVAL, parameters)
     label, velocity = judge(
         scene.source,
         scene.target,

@@ -5,11 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-import sklearn.cluster
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import estimator.rounds
 from estimator import (
     Parameters,
     SceneFlow,
@@ -51,20 +49,14 @@ def contents(value: Any) -> Any:
     return np.float64(value).tobytes() if isinstance(value, float) else value
 
 
-def counted(monkeypatch, module, name) -> list[Any]:
-    calls, real = [], getattr(module, name)
-    monkeypatch.setattr(module, name, lambda *a, **k: calls.append(a) or real(*a, **k))
-    return calls
+@pytest.fixture
+def clusterings(counting):
+    return counting.clusterings
 
 
 @pytest.fixture
-def clusterings(monkeypatch):
-    return counted(monkeypatch, sklearn.cluster, "HDBSCAN")
-
-
-@pytest.fixture
-def icps(monkeypatch):
-    return counted(monkeypatch, estimator.rounds, "align")
+def icps(counting):
+    return counting.icps
 
 
 def pair_of(seed: int) -> Window:

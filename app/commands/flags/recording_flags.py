@@ -87,6 +87,14 @@ def opening_from(options: argparse.Namespace) -> Opening:
     )
 
 
+def with_absolute_paths(options: argparse.Namespace) -> argparse.Namespace:
+    """The same flags for processes that run in other folders, as a cluster's do."""
+    changed = argparse.Namespace(**vars(options))
+    changed.rig, changed.urdf = (path and path.absolute() for path in (options.rig, options.urdf))
+    changed.meshes = [folder.absolute() for folder in options.meshes]
+    return changed
+
+
 def files_read(options: argparse.Namespace) -> list[Path]:
     """Files beside the recordings that the flags name: rig, robot, parameters."""
     named = (options.rig, options.urdf, options.parameters)

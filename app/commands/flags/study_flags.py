@@ -1,7 +1,6 @@
-"""The flags of `tofscope study` that say what is studied, and where it runs."""
+"""The flags of `tofscope study` that say what is studied."""
 
 import argparse
-import os
 from pathlib import Path
 
 from app.commands.flags.simulation_flags import ALL, MAX_SPEED, MORE
@@ -69,25 +68,5 @@ def add_source_flags(parser: argparse.ArgumentParser) -> None:
         help=(
             "a further table: what every noise model and every imperfection does to the errors, "
             f"at {ABLATION_SPEED:g} m/s"
-        ),
-    )
-
-
-def add_execution_flags(parser: argparse.ArgumentParser) -> None:
-    """Add --jobs and --dask."""
-    group = parser.add_argument_group("where it runs")
-    group.add_argument(
-        "--jobs",
-        type=int,
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="processes on this machine (default all cores)",
-    )
-    group.add_argument(
-        "--dask",
-        metavar="ADDRESS",
-        help=(
-            "run on the workers of a Dask scheduler instead, such as tcp://host:8786; they need "
-            "the same Tofscope and see the same paths (needs tofscope[dask])"
         ),
     )

@@ -3,13 +3,12 @@ import sys
 
 import numpy as np
 import pytest
-import sklearn.cluster
 
 import app.analysis.pair_estimator
-import estimator.rounds
 from app.analysis.estimates import Estimates
 from estimator import Label, Parameters
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
+from tests.estimator.engines import Counting, using
 
 MOVING = 100  # points of the moving patch, the last of the cloud
 
@@ -107,32 +106,31 @@ def test_warming_up_loads_what_an_estimate_needs():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-def test_other_thresholds_neither_read_nor_cluster_nor_register_again(monkeypatch):
-    read, ran = [], []
+def test_other_thresholds_neither_read_nor_cluster_nor_register_again():
+    read, counting = [], Counting()
     fake = fake_recording()
     for name in ("cloud", "pair_truth", "link_poses"):
         real = getattr(fake, name)
         setattr(fake, name, lambda *a, real=real: read.append(a) or real(*a))
-    for module, name in ((sklearn.cluster, "HDBSCAN"), (estimator.rounds, "align")):
-        real = getattr(module, name)
-        monkeypatch.setattr(module, name, lambda *a, real=real, **k: ran.append(a) or real(*a, **k))
     estimates, opened = Estimates(), fake_opened(fake)
-    estimates.estimated(opened, 20, Parameters(delta=0.05))
-    assert read
-    assert ran
-    read.clear()
-    ran.clear()
-    for parameters in (Parameters(delta=0.01), Parameters(gamma=0.3), Parameters(n_min=90)):
-        pair = estimates.estimated(opened, 20, parameters)
-        assert pair.anything_moves
-    assert estimates.estimated(opened, 20, Parameters(delta=1.0)).anything_moves is False
-    assert read == ran == []
+    with using(counting.engine()):
+        estimates.estimated(opened, 20, Parameters(delta=0.05))
+        ran = len(counting.clusterings), len(counting.icps)
+        assert read
+        assert min(ran) > 0
+        read.clear()
+        for parameters in (Parameters(delta=0.01), Parameters(gamma=0.3), Parameters(n_min=90)):
+            pair = estimates.estimated(opened, 20, parameters)
+            assert pair.anything_moves
+        assert estimates.estimated(opened, 20, Parameters(delta=1.0)).anything_moves is False
+    assert read == []
+    assert (len(counting.clusterings), len(counting.icps)) == ran
 
 
-def test_what_is_remembered_of_pairs_is_bounded(monkeypatch):
-    runs, real = [], sklearn.cluster.HDBSCAN
-    monkeypatch.setattr(sklearn.cluster, "HDBSCAN", lambda *a, **k: runs.append(k) or real(*a, **k))
+def test_what_is_remembered_of_pairs_is_bounded():
+    counting = Counting()
     estimates, opened = Estimates(pairs=2), fake_opened()
-    for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
-        estimates.estimated(opened, k, Parameters(delta=delta))
-    assert len(runs) == 4
+    with using(counting.engine()):
+        for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
+            estimates.estimated(opened, k, Parameters(delta=delta))
+    assert len(counting.clusterings) == 4

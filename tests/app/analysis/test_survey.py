@@ -16,7 +16,8 @@ from tests.recordings.room import write_room
 def filled(opened, parameters, estimates=None):
     estimates = estimates or Estimates()
     survey = Survey(opened.recording, parameters)
-    while (k := survey.missing()) is not None:
+    while frames := survey.missing(1):
+        (k,) = frames
         survey.put(k, estimates.estimated(opened, k, parameters))
     return survey
 
@@ -189,12 +190,11 @@ def test_without_truth_there_is_a_flow_alone():
 
 def test_a_broken_frame_is_done_and_empty():
     survey = Survey(fake_recording(), Parameters())
-    k = survey.missing()
-    assert k is not None
-    survey.put(k, None)
-    assert survey.done[k]
-    assert np.isnan(survey.moving[k])
-    assert survey.missing() != k
+    first, second, third = survey.missing(3)
+    survey.put(first, None)
+    assert survey.done[first]
+    assert np.isnan(survey.moving[first])
+    assert survey.missing(2) == [second, third]
 
 
 @pytest.mark.parametrize("size", [1, 2, 16, 17, 100])

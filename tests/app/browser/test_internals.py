@@ -6,6 +6,7 @@ import threading
 from pathlib import Path
 
 import viser._messages
+from viser import _gui_api, _gui_handles, _icons
 
 import app
 from app.browser import connections, internals
@@ -229,3 +230,15 @@ def test_private_parts_are_used_in_two_files_alone():
         if re.search(r"(?<!\bself)(?<!\bcls)(?<!\bargparse)\._[a-z]|\bviser\._", line)
     ]
     assert not used, f"put these into {INTERNALS} or connections.py, with a test: {used}"
+
+
+def test_icons_are_those_that_viser_reads(monkeypatch):
+    names = [viser.Icon.PLAYER_PLAY, viser.Icon.DOWNLOAD]
+    assert [internals.icon_svg(name) for name in names] == list(map(_icons.svg_from_icon, names))
+    for module in (_gui_api, _gui_handles):
+        monkeypatch.setattr(module, "svg_from_icon", None)
+    internals.keep_icons_open()
+    why = f"viser draws icons by another function: `keep_icons_open` of {INTERNALS} has no effect"
+    for module in (_gui_api, _gui_handles):
+        assert "svg_from_icon(icon" in inspect.getsource(module), why
+        assert module.svg_from_icon is internals.icon_svg

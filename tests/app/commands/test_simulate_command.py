@@ -219,3 +219,29 @@ def test_help_says_what_happens_to_files_that_exist(capsys: pytest.CaptureFixtur
     assert "exists under the name is replaced" in text
     for name in [*SCENARIOS, *NOISE_MODELS, *IMPERFECTIONS, "all", "more", "8 to 11 %"]:
         assert name in text
+
+
+@pytest.mark.parametrize(
+    ("flags", "said"),
+    [
+        (["--pose-rate", "100"], "--pose-rate needs --duration."),
+        (["--duration", "0"], "--duration must be above 0 and at most 86400 s, got 0."),
+        (["--duration", "nan"], "--duration must be above 0 and at most 86400 s, got nan."),
+        (["--duration", "9", "--pose-rate", "-1"], "--pose-rate must be 0 to 1000 Hz, got -1."),
+    ],
+)
+def test_a_repetition_that_cannot_be_is_one_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], flags: list[str], said: str
+):
+    assert main(["simulate", "towards", *flags, "--out", str(tmp_path / "x.mcap")]) != 0
+    assert said in capsys.readouterr().err
+
+
+def test_a_recording_of_a_duration_lasts_so_long(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    rig = tmp_path / "rig.toml"
+    rig.write_text(COARSE_RIG)
+    flags = ["--duration", "4", "--pose-rate", "50", "--rig", str(rig)]
+    assert main(["simulate", "towards", *QUICK, *flags, "--out", str(tmp_path / "x.mcap")]) == 0
+    assert "60 frames" in capsys.readouterr().out

@@ -6,7 +6,7 @@ from app.analysis.survey import Survey
 from app.session.commands import ReceiveSurveyUpdates
 from app.session.followed_sides import FollowedSides
 from app.session.followed_survey import SurveyUpdate
-from estimator import Parameters
+from estimator import Parameters, current_engine
 from tests.app.fake_recordings import fake_opened
 from tests.app.session.test_followed_survey import Background
 
@@ -39,7 +39,8 @@ def test_both_sides_are_followed_and_what_is_known_stays_when_they_are_switched(
 
 def test_the_last_update_of_each_survey_is_kept():
     opened = fake_opened()
-    first, second = (opened, FIRST), (opened, SECOND)
+    engine = current_engine()
+    first, second = (opened, FIRST, engine), (opened, SECOND, engine)
     survey = Survey(opened.recording, FIRST)
     updates = [SurveyUpdate(requested, survey) for requested in (first, second, first)]
     merged = ReceiveSurveyUpdates((updates[0],))

@@ -1,10 +1,5 @@
-import json
-import os
 import re
-import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -14,10 +9,8 @@ from app.study.execution import outcomes
 from app.study.rows import Row, rows_of
 from app.study.work import EvaluationCase, Recorded, Simulated, Work, run_work
 from estimator import Parameters
-from tests.app.waiting import until
 from tests.recordings.room import write_room
 
-ROOT = Path(__file__).parents[3]
 ASKS = (EvaluationCase(Parameters()), EvaluationCase(Parameters(method="baseline")))
 SIMULATED = Work(Simulated("towards", 0.3, 2), ASKS)
 
@@ -43,36 +36,6 @@ def one_core(works: list[Work]) -> list[Row]:
     return found
 
 
-@pytest.fixture
-def scheduler(tmp_path: Path) -> Iterator[str]:
-    """Address of a scheduler with two worker processes, started for the test."""
-    distributed = pytest.importorskip("distributed", reason="distributed is not installed")
-    file = tmp_path / "scheduler.json"
-    common = ["--scheduler-file", str(file), "--no-dashboard"]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    with ExitStack() as stack:
-
-        def start(*arguments: str) -> None:
-            process = stack.enter_context(
-                subprocess.Popen(
-                    [sys.executable, "-m", "dask", *arguments, *common],
-                    cwd=tmp_path,
-                    env=environment,
-                    stderr=subprocess.DEVNULL,
-                )
-            )
-            stack.callback(process.terminate)
-
-        start("scheduler", "--host", "127.0.0.1", "--port", "0")
-        until(file.exists)
-        for _ in range(2):
-            start("worker", "--nthreads", "1", "--no-nanny", "--host", "127.0.0.1")
-        address = json.loads(file.read_text())["address"]
-        with distributed.Client(address, set_as_default=False) as client:
-            client.wait_for_workers(2, timeout=10)
-        yield address
-
-
 def test_two_cores_give_what_one_gives(works: list[Work], one_core: list[Row]):
     assert rows(works, 2) == one_core
 
@@ -85,7 +48,7 @@ def test_a_dask_cluster_gives_what_one_core_gives(
 
 def test_a_scheduler_that_is_not_there_is_said(monkeypatch: pytest.MonkeyPatch):
     pytest.importorskip("distributed", reason="distributed is not installed")
-    monkeypatch.setattr("app.study.execution._PATIENCE", 1)
+    monkeypatch.setattr("app.execution.cluster._PATIENCE", 1)
     with pytest.raises(InputError, match=r"no Dask scheduler at tcp://127\.0\.0\.1:9"):
         list(outcomes([SIMULATED], 1, "tcp://127.0.0.1:9"))
 

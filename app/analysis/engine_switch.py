@@ -1,0 +1,103 @@
+"""Use of the compiled engine as soon as its code is there, of the reference until then."""
+
+import logging
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+
+from estimator.engines import COMPILED, REFERENCE, Engine, use_engine
+
+COMPILING = (
+    "The fast estimator is being compiled, once, in about half a minute; until then scikit-learn "
+    "and Open3D do its work."
+)
+COMPILED_NOW = "The fast estimator is compiled; it does the work from now on."
+_LOG = logging.getLogger(__name__)
+
+
+class EngineSwitch:
+    """Compiles the engine once, in a process of its own, while the reference estimates.
+
+    Attributes:
+        compiling: whether it is being compiled.
+    """
+
+    def __init__(self) -> None:
+        self.compiling = False
+        self._lock = threading.Lock()
+        self._listeners: list[Callable[[str], None]] = []
+        self._process: subprocess.Popen[bytes] | None = None
+        self._closed = False
+
+    def begin(self, engine: Engine) -> None:
+        """Use an engine; the compiled one is loaded in the background, compiled where that is due.
+
+        Args:
+            engine: to use from now on, or as soon as it is there.
+        """
+        use_engine(REFERENCE)
+        if engine is not COMPILED:
+            return
+        threading.Thread(target=self._run, name="engine", daemon=True).start()
+
+    def subscribe(self, listener: Callable[[str], None]) -> Callable[[], None]:
+        """Have a function called, from any thread, when `compiling` or the engine changes.
+
+        Args:
+            listener: takes what people are told of it, "" for nothing.
+
+        Returns:
+            Function that ends it.
+        """
+        with self._lock:
+            self._listeners.append(listener)
+
+        def leave() -> None:
+            with self._lock:
+                self._listeners.remove(listener)
+
+        return leave
+
+    def close(self) -> None:
+        """End a compilation that is running."""
+        with self._lock:
+            self._closed = True
+            if self._process is not None:
+                self._process.terminate()
+
+    def _run(self) -> None:
+        try:
+            self._load()
+        except Exception:
+            _LOG.exception("The engine could not be compiled; the reference goes on.")
+        self._tell(COMPILED_NOW if self.compiling else "")
+        self.compiling = False
+
+    def _tell(self, said: str) -> None:
+        with self._lock:
+            listeners = list(self._listeners)
+        for listener in listeners:
+            listener(said)
+
+    def _compile(self) -> None:
+        with self._lock:
+            if self._closed:
+                return
+            self._process = subprocess.Popen([sys.executable, "-m", "estimator.engine.readiness"])
+        self._process.wait()
+
+    def _load(self) -> None:
+        from estimator.engine.compiled import cache_folder
+        from estimator.engine.readiness import compile_all, is_compiled
+
+        if not is_compiled():
+            self.compiling = True
+            self._tell(COMPILING)
+            # Without a folder to keep it in, the code must be compiled in this process.
+            if cache_folder() is not None:
+                self._compile()
+        if self._closed:
+            return
+        compile_all()
+        use_engine(COMPILED)
