@@ -13,6 +13,10 @@ COMPILING = (
     "and Open3D do its work."
 )
 COMPILED_NOW = "The fast estimator is compiled; it does the work from now on."
+NOT_COMPILED = (
+    "The fast estimator could not be compiled; scikit-learn and Open3D go on doing its work. The "
+    "log says why."
+)
 _LOG = logging.getLogger(__name__)
 
 
@@ -67,11 +71,14 @@ class EngineSwitch:
                 self._process.terminate()
 
     def _run(self) -> None:
+        said = COMPILED_NOW
         try:
             self._load()
         except Exception:
             _LOG.exception("The engine could not be compiled; the reference goes on.")
-        self._tell(COMPILED_NOW if self.compiling else "")
+            said = NOT_COMPILED
+        if not self._closed:
+            self._tell(said if self.compiling or said is NOT_COMPILED else "")
         self.compiling = False
 
     def _tell(self, said: str) -> None:
