@@ -28,6 +28,7 @@ _POSES = """names => names.map(name => {
 _FORGET = """() => {
   sessionStorage.clear();
   document.activeElement.blur();
+  delete document.getElementById("tofscope-timeline").dataset.frame;
   document.querySelectorAll("[role=alert] button").forEach(button => button.click());
 }"""
 _BEGUN = "sessionStorage.getItem('tofscope-session') !== null"
@@ -64,6 +65,7 @@ class Tab:
     def _wait_for_the_first_frame(self) -> None:
         # The first page of all loads what the others find loaded.
         until(self.page, lambda: self.has_text("Moving") and len(self.arrows()) > 0, timeout=30.0)
+        self.until(lambda: self.value("Frame") == self.drawn_frame())
         self.page.wait_for_selector("#tofscope-opening", state="hidden")
 
     def until(self, condition: Callable[[], Any]) -> None:
