@@ -26,7 +26,7 @@ fuzz: setup
 bench: setup
 	OMP_NUM_THREADS=1 $(BIN)/python -m benchmarks.bench
 
-# Compare two of its tables; ARGS as in: make bench-compare ARGS="before.json after.json"
+# Compare the last commit's table with the last run's; or make bench-compare ARGS="a.json b.json"
 bench-compare: setup
 	@$(BIN)/python -m benchmarks.compare $(ARGS)
 

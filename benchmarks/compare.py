@@ -1,19 +1,51 @@
 """Two tables of `make bench` side by side.
 
-Run it from the project's folder: `make bench-compare ARGS="BEFORE.json AFTER.json"`. Ratios to the
+Run it from the project's folder: `make bench-compare` compares the table of the last commit with
+that of the last run, `make bench-compare ARGS="BEFORE.json AFTER.json"` any two. Ratios to the
 naive pipeline are compared where there are any, since machines and their loads differ.
 """
 
 import argparse
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 from benchmarks.rows import Row
 
+REPOSITORY = Path(__file__).parent.parent
+LAST = REPOSITORY / "benchmarks" / "results" / "last.json"
 
-def read(path: Path) -> dict[str, Row]:
-    """{name: row} of a table."""
-    return {row["name"]: Row(**row) for row in json.loads(path.read_text())["rows"]}
+
+def read(text: str, where: str) -> dict[str, Row]:
+    """{name: row} of a table.
+
+    Args:
+        text: of the JSON file.
+        where: it is from, for the error.
+
+    Raises:
+        ValueError: it is no table of `make bench`.
+    """
+    try:
+        return {row["name"]: Row(**row) for row in json.loads(text)["rows"]}
+    except (ValueError, TypeError, KeyError) as error:
+        raise ValueError(f"{where} is not a table of make bench.") from error
+
+
+def kept() -> str:
+    """The table of the last commit.
+
+    Raises:
+        ValueError: there is none, or no git.
+    """
+    command = ["git", "show", f"HEAD:./{LAST.relative_to(REPOSITORY)}"]
+    try:
+        return subprocess.run(
+            command, cwd=REPOSITORY, check=True, capture_output=True, text=True
+        ).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise ValueError("The last commit has no table; give two JSON files.") from error
 
 
 def lines(before: dict[str, Row], after: dict[str, Row]) -> list[str]:
@@ -39,12 +71,18 @@ def _text(row: Row | None) -> str:
 
 
 def main() -> None:
-    """Print the comparison."""
+    """Print the comparison; of input that is no table, one sentence."""
     parser = argparse.ArgumentParser(description="Compare two tables of make bench.")
-    parser.add_argument("before", type=Path)
-    parser.add_argument("after", type=Path)
-    options = parser.parse_args()
-    print("\n".join(lines(read(options.before), read(options.after))))
+    parser.add_argument("tables", nargs="*", type=Path, metavar="TABLE", help="before, and after")
+    paths = parser.parse_args().tables
+    if len(paths) not in (0, 2):
+        parser.error("give two tables, or none for the committed one and the last run")
+    try:
+        before = read(paths[0].read_text(), str(paths[0])) if paths else read(kept(), "HEAD's")
+        after = paths[1] if paths else LAST
+        print("\n".join(lines(before, read(after.read_text(), str(after)))))
+    except (OSError, ValueError) as error:
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

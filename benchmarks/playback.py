@@ -8,6 +8,10 @@ import re
 import statistics
 import tempfile
 import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -45,7 +49,43 @@ class _Frames:
         self._drawn = False
 
 
-def _play(served: Served, client: WireClient, frames: _Frames, speed: float, seconds: float) -> str:
+@dataclass(frozen=True)
+class Played:
+    """What came while a recording was played.
+
+    Attributes:
+        times: seconds at which clouds came, three or more.
+        numbers: frames that came.
+        used: share of a processor.
+        received: bytes, all messages together.
+        seconds: that it was played.
+    """
+
+    times: list[float]
+    numbers: list[int]
+    used: float
+    received: int
+    seconds: float
+
+    @property
+    def bytes_a_frame(self) -> float:
+        """Bytes of all messages for each cloud that came."""
+        return self.received / len(self.times)
+
+
+@contextmanager
+def playing(*paths: Path) -> Iterator[Callable[[float, float], Played | None]]:
+    """Serve recordings to one client; gives what plays them at a speed for a time in seconds."""
+    frames = _Frames()
+    with serving(*paths) as served, WireClient(served.address, frames.listen) as client:
+        wait_until(lambda: frames.clouds, 120)
+        time.sleep(_SETTLE)
+        yield partial(_play, served, client, frames)
+
+
+def _play(
+    served: Served, client: WireClient, frames: _Frames, speed: float, seconds: float
+) -> Played | None:
     client.tell("playback", {"speed": speed, "loop": True})
     client.trigger("First frame")
     time.sleep(1.0)
@@ -55,30 +95,31 @@ def _play(served: Served, client: WireClient, frames: _Frames, speed: float, sec
     time.sleep(seconds)
     used = (served.seconds() - before) / (time.perf_counter() - start)
     times, numbers = list(frames.clouds), list(frames.numbers)
+    received = client.received - received
     client.trigger("Play or pause")
-    if len(times) < 3:
-        return f"{speed:4g}x: nothing came"
+    return Played(times, numbers, used, received, seconds) if len(times) >= 3 else None
+
+
+def _line(played: Played) -> str:
+    times, numbers = played.times, played.numbers
     gaps = [1e3 * (b - a) for a, b in pairwise(times)]
     rate = (len(times) - 1) / (times[-1] - times[0])
     steps = [b - a for a, b in pairwise(numbers) if b > a]  # a loop goes back to its start
-    bandwidth = (client.received - received) / seconds / 1e6
     return (
-        f"{speed:4g}x: {rate:5.1f} frames/s over {times[-1] - times[0]:.1f} s; gaps median "
+        f"{rate:5.1f} frames/s over {times[-1] - times[0]:.1f} s; gaps median "
         f"{statistics.median(gaps):.0f} ms, longest {max(gaps):.0f} ms; "
-        f"{sum(steps) - len(steps)} of {sum(steps)} frames left out; {100 * used:.0f} % of a "
-        f"processor, {bandwidth:.2f} MB/s"
+        f"{sum(steps) - len(steps)} of {sum(steps)} frames left out; {100 * played.used:.0f} % of "
+        f"a processor, {played.received / played.seconds / 1e6:.2f} MB/s"
     )
 
 
 def measure(name: str, *paths: Path, seconds: float) -> None:
     """Print the rates at several speeds."""
     print(f"{name} ({machine()})", flush=True)
-    frames = _Frames()
-    with serving(*paths) as served, WireClient(served.address, frames.listen) as client:
-        wait_until(lambda: frames.clouds, 120)
-        time.sleep(_SETTLE)
+    with playing(*paths) as play:
         for speed in (1.0, 5.0):
-            print("  " + _play(served, client, frames, speed, seconds), flush=True)
+            played = play(speed, seconds)
+            print(f"  {speed:4g}x: {_line(played) if played else 'nothing came'}", flush=True)
 
 
 def main() -> None:

@@ -50,10 +50,15 @@ def against_naive(
     naive: Sequence[Callable[[], object]],
     times: int = 3,
 ) -> Row:
-    """Medians of two ways to do the same with each input, in turns; of several times the least."""
+    """Medians of two ways to do the same with each input, in turns; of several times, too."""
     pairs: list[tuple[float, float]] = []
     for our, their in zip(ours, naive, strict=True):
         runs = [(milliseconds(our), milliseconds(their)) for _ in range(times)]
-        pairs.append((min(run[0] for run in runs), min(run[1] for run in runs)))
-    mine, other = (statistics.median(column) for column in zip(*pairs, strict=True))
+        pairs.append(_medians(runs))
+    mine, other = _medians(pairs)
     return Row(name, mine, naive=other)
+
+
+def _medians(both: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    mine, other = zip(*both, strict=True)
+    return statistics.median(mine), statistics.median(other)

@@ -9,7 +9,7 @@ def test_every_command_that_a_benchmark_triggers_is_the_apps():
     panels = "".join(path.read_text() for path in (REPOSITORY / "app" / "panels").glob("*.py"))
     triggered = [
         label
-        for path in (REPOSITORY / "benchmarks").glob("*.py")
+        for path in (REPOSITORY / "benchmarks").rglob("*.py")
         for label in re.findall(r'trigger\("([^"]+)"\)', path.read_text())
     ]
     assert triggered
