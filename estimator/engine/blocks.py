@@ -100,8 +100,6 @@ def _sort(points: NDArray[np.float64], number: NDArray[np.int32], size: int) -> 
         # Superblocks of eight whole blocks stay together.
         unit = BLOCK if count <= BLOCK * BLOCK else BLOCK * BLOCK
         middle = begin + (count // unit + 1) // 2 * unit
-        if middle >= end:
-            middle -= unit
         _select(points, number, _longest_side(points, begin, end), begin, end, middle)
         begins[depth], ends[depth] = begin, middle
         begins[depth + 1], ends[depth + 1] = middle, end
