@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from benchmarks.measures import clustering, files, icp, pairs, processes, sliders, whole
+from benchmarks.measures import clustering, files, icp, pairs, processes, sliders, surveyed, whole
 from benchmarks.rows import HEADING, Row
 from estimator.engines import COMPILED, REFERENCE, warm_up
 
 RESULTS = Path(__file__).parent / "results"
-_MEASURES = (clustering, icp, pairs, whole, sliders, files, processes)
+_MEASURES = (clustering, icp, pairs, whole, surveyed, sliders, files, processes)
 
 
 def machine() -> str:

@@ -17,18 +17,11 @@ from estimator.flow import (
 )
 from estimator.method import Method, MethodError, Tracker, all_methods, find_method, register
 from estimator.metric_info import MetricInfo
-from estimator.metrics import (
-    ERROR_SYMBOLS,
-    METRIC_INFO,
-    MOVING_SPEED,
-    Metrics,
-    PooledErrors,
-    angles_deg,
-    truly_moves,
-)
+from estimator.metrics import ERROR_SYMBOLS, METRIC_INFO, Metrics, PooledErrors
 from estimator.parameter_info import CheckedParameters, ParameterError, ParameterInfo, parameter
 from estimator.parameter_values import changed, from_nested, to_nested, values_of
 from estimator.parameters import PARAMETER_INFO, Parameters, method_names
+from estimator.point_errors import MOVING_SPEED, angles_deg, truly_moves
 from estimator.stages import Stages
 from estimator.window import LazyFrames, Window, window_of_pair
 

@@ -25,17 +25,15 @@ from numpy.typing import NDArray
 
 from estimator.flow import SceneFlow
 from estimator.metric_info import MetricInfo, metric
-
-MOVING_SPEED = 0.01
-"""Speed in m/s above which the truth counts as motion."""
-
-STRICT, RELAXED, OUTLYING = 0.05, 0.10, 0.30
-"""AccS: e below STRICT metres or r below STRICT; AccR likewise with RELAXED; an outlier: e above
-OUTLYING metres or r above RELAXED."""
-
-RELATIVE_EPSILON = 1e-4
-"""Metres in the denominator of r, as in HPLFlowNet (Argoverse 2 has 1e-10, ICP-Flow 1e-20)."""
-
+from estimator.point_errors import (
+    ERRORS,
+    MOVING_SPEED,
+    OUTLYING,
+    RELAXED,
+    STRICT,
+    point_errors,
+    sums_of_groups,
+)
 
 ERROR_SYMBOLS = (
     "e is the length of the difference between a point's estimated displacement over a pair (zero "
@@ -128,15 +126,13 @@ class Metrics:
 
 METRIC_INFO: dict[str, MetricInfo] = {f.name: f.metadata["metric"] for f in fields(Metrics)}
 
-_MEANS = tuple(name for name, info in METRIC_INFO.items() if info.kind != "count")
-
 
 class PooledErrors:
-    """Accumulator of errors, pair by pair."""
+    """Accumulator of errors, pair by pair; within a pair, cluster by cluster."""
 
     def __init__(self) -> None:
-        self._counts = {name: 0 for name in METRIC_INFO if name not in _MEANS}
-        self._means = {name: _Mean() for name in _MEANS}
+        self._pairs = 0
+        self._sums = np.zeros(2 * len(ERRORS))
 
     def add(
         self,
@@ -153,29 +149,11 @@ class PooledErrors:
             object_velocity: (N, 3) m/s of the moving object, as if each point belonged to it.
             point_velocity: (N, 3) m/s of each point itself, NaN where unknown; None without.
         """
-        moving = flow.moving
-        estimated, true = flow.velocity[moving], object_velocity[moving]
-        self._counts["pairs"] += 1
-        velocity_error = np.linalg.norm(estimated - true, axis=1)
-        self._counts["points_with_flow"] += int(np.isfinite(velocity_error).sum())
-        self._add("angle_deg", angles_deg(estimated, true))
-        self._add("velocity_error", velocity_error)
-        if point_velocity is None:
-            return
-        known = _known(point_velocity)
-        found, truly = moving[known], truly_moves(point_velocity[known])
-        self._add("coverage", found[truly])
-        self._add("precision", truly[found])
-        self._add("dynamic_iou", (found & truly)[found | truly])
-        self._add("false_flow", found[~truly])
-        by_flow = np.where(moving[:, None], flow.velocity, 0.0)[known]
-        e = np.linalg.norm(by_flow - point_velocity[known], axis=1) * interval
-        f = np.linalg.norm(point_velocity[known], axis=1) * interval
-        r = e / (f + RELATIVE_EPSILON)
-        self._add("epe3d", e)
-        self._add("acc_s", (e < STRICT) | (r < STRICT))
-        self._add("acc_r", (e < RELAXED) | (r < RELAXED))
-        self._add("outliers", (e > OUTLYING) | (r > RELAXED))
+        self._pairs += 1
+        self._sums += flow_sums(
+            flow,
+            point_errors(flow.moving, flow.velocity, interval, object_velocity, point_velocity),
+        )
 
     def add_resting(self, flow: SceneFlow, point_velocity: NDArray[np.float64]) -> None:
         """Add one pair that does not count; it changes only the false flow.
@@ -184,64 +162,56 @@ class PooledErrors:
             flow: of N source points.
             point_velocity: (N, 3) m/s of each point itself, NaN where unknown.
         """
-        known = _known(point_velocity)
-        self._add("false_flow", flow.moving[known][~truly_moves(point_velocity[known])])
+        nothing = np.zeros_like(point_velocity)
+        errors = point_errors(flow.moving, flow.velocity, 1.0, nothing, point_velocity)
+        self._sums += only_false_flow(flow_sums(flow, errors))
 
     @property
     def sums(self) -> NDArray[np.float64]:
-        """Array for `include`: all counts, then sum and number of values of each mean."""
-        means = self._means.values()
-        return np.array([*self._counts.values(), *(v for m in means for v in (m.sum, m.count))])
+        """Array for `include`: the number of pairs, then sum and number of values of each mean."""
+        return np.array([self._pairs, *self._sums])
 
     def include(self, sums: NDArray[np.float64]) -> None:
         """Add the pairs of another accumulator, given its `sums`."""
-        counts, means = np.split(sums, [len(self._counts)])
-        for name, count in zip(self._counts, counts, strict=True):
-            self._counts[name] += int(count)
-        for mean, (total, count) in zip(self._means.values(), means.reshape(-1, 2), strict=True):
-            mean.sum += float(total)
-            mean.count += int(count)
+        self._pairs += int(sums[0])
+        self._sums += sums[1:]
 
     def metrics(self) -> Metrics:
         """The errors of all pairs added so far."""
-        values: dict[str, Any] = {name: mean.value for name, mean in self._means.items()}
-        return Metrics(**self._counts, **values)
-
-    def _add(self, name: str, values: NDArray[np.float64] | NDArray[np.bool_]) -> None:
-        self._means[name].add(values)
-
-
-def _known(point_velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
-    return np.asarray(np.isfinite(point_velocity).all(axis=1))
+        # NaN is always this one, so that equal metrics compare as equal.
+        values = [math.nan if math.isnan(mean) else mean for mean in means_of(self._sums).tolist()]
+        means: dict[str, Any] = dict(zip(ERRORS, values, strict=True))
+        with_flow = self._sums[2 * ERRORS.index("velocity_error") + 1]
+        return Metrics(pairs=self._pairs, points_with_flow=int(with_flow), **means)
 
 
-def truly_moves(velocity: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Mask (N,) of velocities (N, 3) m/s above `MOVING_SPEED`; False where unknown (NaN)."""
-    return np.linalg.norm(velocity, axis=1) > MOVING_SPEED
+def flow_sums(flow: SceneFlow, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Sum and number of the finite values of each column over all points of a flow.
+
+    Points of a cluster without a flow are added first, then those with one, then those of the next
+    cluster: in this order, what is known of each part of a cluster gives the same sum.
+
+    Args:
+        flow: of N source points.
+        values: (N, M) of these points.
+
+    Returns:
+        (2 M,).
+    """
+    parts, group = np.unique(2 * flow.cluster + flow.moving, return_inverse=True)
+    sums = sums_of_groups(values, group, len(parts))
+    return np.cumsum(sums, axis=0)[-1] if len(sums) else np.zeros(2 * values.shape[1])
 
 
-def angles_deg(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angles (N,) in degrees between vectors (N, 3), NaN where one is zero."""
-    # atan2 keeps its accuracy at small angles, where the paper's acos loses half the digits.
-    across = np.linalg.norm(np.cross(a, b), axis=1)
-    along = np.einsum("ij,ij->i", a, b)
-    lengths = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
-    return np.where(lengths > 0, np.degrees(np.arctan2(across, along)), np.nan)
+def only_false_flow(sums: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Sums (..., 2 len(ERRORS)) of which all but the false flow's are zero."""
+    kept = np.zeros_like(sums)
+    at = 2 * ERRORS.index("false_flow")
+    kept[..., at : at + 2] = sums[..., at : at + 2]
+    return kept
 
 
-class _Mean:
-    """Running mean; NaN and infinite values are left out."""
-
-    def __init__(self) -> None:
-        self.sum = 0.0
-        self.count = 0
-
-    def add(self, values: NDArray[np.float64] | NDArray[np.bool_]) -> None:
-        good = np.asarray(values, dtype=np.float64)
-        good = good[np.isfinite(good)]
-        self.sum += float(good.sum())
-        self.count += len(good)
-
-    @property
-    def value(self) -> float:
-        return self.sum / self.count if self.count else math.nan
+def means_of(sums: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Means (..., M) of sums and numbers (..., 2 M), NaN of no values."""
+    with np.errstate(invalid="ignore"):
+        return sums[..., ::2] / sums[..., 1::2]

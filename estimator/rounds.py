@@ -45,7 +45,7 @@ def icp_round(
         ("icp", engine.name, reach, source.tobytes(), target.tobytes()),
         lambda: _round(source, target, window, reach, engine),
     )
-    return current, _displacement(window.source.points[source], current.transformation)
+    return current, displaced(window.source.points[source], current.transformation)
 
 
 def _round(
@@ -53,7 +53,7 @@ def _round(
 ) -> IcpRound:
     points = window.source.points[source]
     icp = engine.align(points, window.target.points[target], reach)
-    displacement = _displacement(points, icp.transformation)
+    displacement = displaced(points, icp.transformation)
     return IcpRound(
         source_size=len(source),
         target_size=len(target),
@@ -66,8 +66,9 @@ def _round(
     )
 
 
-def _displacement(
+def displaced(
     points: NDArray[np.float64], transformation: NDArray[np.float64]
 ) -> NDArray[np.float64]:
+    """Displacements (N, 3) of points (N, 3) by a transformation (4, 4), metres (line 12)."""
     R, t = transformation[:3, :3], transformation[:3, 3]
     return points @ R.T + t - points

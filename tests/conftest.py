@@ -1,6 +1,8 @@
 """Settings and fixtures of all tests."""
 
 import resource
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -22,6 +24,12 @@ settings.load_profile("repeatable")
 
 EXPORTS = "tests/browser/test_export_in_chromium.py"
 LONG = ("tests/browser/", "tests/app/commands/", "tests/app/study/")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the engine once, before several processes would."""
+    if not hasattr(config, "workerinput"):
+        subprocess.run([sys.executable, "-m", "estimator.engine.readiness"], check=True)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

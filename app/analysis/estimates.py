@@ -9,6 +9,8 @@ from app.analysis.timeline import RecordedTimeline
 from estimator import Parameters, Stages, current_engine, find_method
 from estimator.engines import REFERENCE
 from estimator.engines import warm_up as warm_up_engine
+from estimator.flow import ClusterResult
+from estimator.outcomes import all_rounds
 from recordings import Cloud
 
 
@@ -66,6 +68,17 @@ class Estimates:
         return self._pairs.get(
             (*_identity(opened), k, parameters), lambda: self._estimate(opened, k, parameters)
         )
+
+    def all_rounds(
+        self, opened: Opened, k: int, parameters: Parameters
+    ) -> tuple[ClusterResult, ...]:
+        """Clusters of the pair (k-n, k) with every round of Algorithm 1, for `KeptRounds`.
+
+        Raises:
+            RecordingError: the file is broken there.
+        """
+        window = self._prepare(opened, k, parameters).window
+        return () if window is None else all_rounds(window, parameters)
 
     def known(self, opened: Opened, k: int, parameters: Parameters) -> Pair | None:
         """The pair (k-n, k) with its flow if that is cached, else None."""

@@ -6,11 +6,9 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 from time import thread_time
 
-import numpy as np
-
 from app.analysis.pair_estimator import PairEstimator
-from app.analysis.pairs import PreparedPair, prepare_pair
-from estimator import MOVING_SPEED, Metrics, Parameters, PooledErrors
+from app.analysis.pairs import PreparedPair, moves, prepare_pair
+from estimator import Metrics, Parameters, PooledErrors
 from recordings import Recording, RecordingError
 
 
@@ -90,12 +88,6 @@ def counting_pairs(recording: Recording, n: int) -> Iterator[tuple[int, int]]:
     for k in range(n, len(recording)):
         if moving[k - n] and moving[k]:
             yield k - n, k
-
-
-def moves(recording: Recording, k: int) -> bool:
-    """Whether the object truly moves at frame `k`."""
-    velocity = recording.truth(k)
-    return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
 
 
 def _window_settings(case: EvaluationCase) -> tuple[int, float]:

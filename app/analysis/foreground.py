@@ -28,20 +28,24 @@ class Foreground:
             self._ended = time.monotonic()
             self._changed.notify_all()
 
-    def wait_until_quiet(self, seconds: float, at_most: float = threading.TIMEOUT_MAX) -> None:
+    def wait_until_quiet(self, seconds: float, at_most: float = threading.TIMEOUT_MAX) -> bool:
         """Wait until no foreground work has run for some time.
 
         Args:
             seconds: without foreground work that end the wait.
             at_most: seconds after which the wait ends in any case, since dragging a slider, or
                 playing a recording longer than the cache, never pauses.
+
+        Returns:
+            Whether it is quiet.
         """
         end = time.monotonic() + at_most
         with self._changed:
             while (now := time.monotonic()) < end:
                 quiet = self._ended + seconds
                 if not self._running and now >= quiet:
-                    return
+                    return True
                 self._changed.wait(
                     min(end - now, threading.TIMEOUT_MAX if self._running else quiet - now)
                 )
+        return False

@@ -41,6 +41,7 @@ class Pair:
         reused: whether parts of the estimate had been computed before.
         n: frames between source and target, 0 without a source.
         object_poses: {frame of the recording's object meshes: T_fixed_object (4, 4)} at frame k.
+        counts: whether it counts in the means: the object truly moves at both frames.
     """
 
     frame: int
@@ -54,6 +55,7 @@ class Pair:
     reused: bool = False
     n: int = 0
     object_poses: dict[str, Transform] = field(default_factory=dict[str, Transform])
+    counts: bool = False
 
     @property
     def object_velocity(self) -> NDArray[np.float64] | None:
@@ -153,7 +155,14 @@ def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCl
         truth=recording.pair_truth(source_k, k, parameters.max_range),
         n=parameters.n,
         object_poses=object_poses,
+        counts=moves(recording, source_k) and moves(recording, k),
     )
+
+
+def moves(recording: Recording, k: int) -> bool:
+    """Whether the object truly moves at frame `k`."""
+    velocity = recording.truth(k)
+    return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
 
 
 def window_of(pair: Pair, recording: Recording, load: LoadCloud, stages: Stages) -> Window | None:

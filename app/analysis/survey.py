@@ -1,16 +1,16 @@
 """Counts, speeds and errors of every frame of a recording."""
 
-from itertools import islice
-
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.evaluation import counting_pairs
 from app.analysis.pairs import Pair
 from estimator import METRIC_INFO, Label, Metrics, Parameters, PooledErrors, SceneFlow
+from estimator.metrics import flow_sums, means_of, only_false_flow
+from estimator.point_errors import ERRORS, lengths
 from recordings import Cloud, Recording
 
-_SUMS = len(PooledErrors().sums)
+_OF_PAIRS = ("counts", "_moves", "points", "clusters", "interval", "true_speed")
+_OF_FRAMES = ("empty", "valid")
 
 
 class Survey:
@@ -43,10 +43,9 @@ class Survey:
         self.parameters = parameters
         self.done = np.arange(size) < parameters.n  # they have no pair
         self.empty = np.zeros(size, dtype=bool)
-        self._sums = np.zeros((size, _SUMS))
+        self._sums = np.zeros((size, len(PooledErrors().sums)))
         self.counts = np.zeros(size, dtype=bool)
-        for _, k in counting_pairs(recording, parameters.n):
-            self.counts[k] = True
+        self._moves = np.zeros(size, dtype=bool)
         self.points, self.moving, self.stationary, self.unassigned, self.clusters = (
             np.full(size, np.nan) for _ in range(5)
         )
@@ -58,8 +57,6 @@ class Survey:
             for name, info in METRIC_INFO.items()
             if info.plotted or info.kind != "count"
         }
-        self._order = coarse_to_fine(size)
-        self._at = 0
 
     def __len__(self) -> int:
         return len(self.done)
@@ -74,13 +71,6 @@ class Survey:
         """Number of pairs of the recording."""
         return max(len(self) - self.parameters.n, 0)
 
-    def missing(self, most: int) -> list[int]:
-        """Next frames to compute, at most so many; none once all are done."""
-        while self._at < len(self._order) and self.done[self._order[self._at]]:
-            self._at += 1
-        left = (k for k in islice(self._order, self._at, None) if not self.done[k])
-        return list(islice(left, most))
-
     def put(self, k: int, pair: Pair | None) -> None:
         """Store the numbers of frame `k` from its pair, None for a broken frame."""
         if pair is not None and pair.source is not None:
@@ -90,8 +80,53 @@ class Survey:
                 valid_share, (pair.target, pair.source)
             )
         if pair is not None and pair.flow is not None:
-            self._put_flow(k, pair, pair.flow)
+            self._put_facts(k, pair, pair.flow)
+            errors = pair.pooled_errors()
+            self.put_flows(
+                np.array([k]),
+                np.array([_count(pair.flow, Label.MOVING)]),
+                np.array([_count(pair.flow, Label.STATIONARY)]),
+                np.array([mean_speed(pair.flow)]),
+                None if errors is None else errors.sums[None, 1:],
+            )
         self.done[k] = True
+
+    def put_flows(
+        self,
+        frames: NDArray[np.intp],
+        moving: NDArray[np.int64],
+        stationary: NDArray[np.int64],
+        speed: NDArray[np.float64],
+        sums: NDArray[np.float64] | None,
+    ) -> None:
+        """Store what depends on the flow of some frames' pairs, of which all else is stored.
+
+        Args:
+            frames: (F,).
+            moving: (F,) points.
+            stationary: (F,) points.
+            speed: (F,) m/s.
+            sums: (F, 2 len(ERRORS)) of the errors of all points, None without truth.
+        """
+        self.moving[frames], self.stationary[frames] = moving, stationary
+        self.unassigned[frames] = self.points[frames] - moving - stationary
+        self.speed[frames] = speed
+        if sums is not None:
+            counts, resting = self.counts[frames, None], only_false_flow(sums)
+            self._sums[frames] = np.hstack([counts, np.where(counts, sums, resting)])
+            moves = counts | self._moves[frames, None]
+            means = means_of(np.where(moves, sums, resting))
+            for name, values in self.metrics.items():
+                values[frames] = means[:, ERRORS.index(name)]
+        self.done[frames] = True
+
+    def copy_facts(self, other: "Survey", frames: NDArray[np.intp]) -> None:
+        """Copy what does not depend on the flow of some frames' pairs."""
+        for name in _OF_PAIRS:
+            getattr(self, name)[frames] = getattr(other, name)[frames]
+        for name in _OF_FRAMES:
+            for at in (frames, frames - self.parameters.n):
+                getattr(self, name)[at] = getattr(other, name)[at]
 
     def summary(self) -> Metrics:
         """Errors pooled over the pairs, as by `evaluate`."""
@@ -100,32 +135,27 @@ class Survey:
         errors.include(np.cumsum(self._sums, axis=0)[-1])
         return errors.metrics()
 
-    def _put_flow(self, k: int, pair: Pair, flow: SceneFlow) -> None:
-        moving = flow.moving
+    def _put_facts(self, k: int, pair: Pair, flow: SceneFlow) -> None:
         self.interval[k] = pair.interval
         self.points[k], self.clusters[k] = len(flow.label), len(flow.clusters)
-        self.moving[k] = np.count_nonzero(moving)
-        self.stationary[k] = np.count_nonzero(flow.label == Label.STATIONARY)
-        self.unassigned[k] = np.count_nonzero(flow.label == Label.UNASSIGNED)
-        if moving.any():
-            self.speed[k] = np.linalg.norm(flow.velocity[moving], axis=1).mean()
-        pooled = pair.pooled_errors(counts=bool(self.counts[k]))
-        if pooled is None:
-            return
-        velocity = pair.object_velocity
-        self.true_speed[k] = 0.0 if velocity is None else np.linalg.norm(velocity)
-        self._sums[k] = pooled.sums
-        metrics = pair.errors or pooled.metrics()
-        for name, values in self.metrics.items():
-            values[k] = getattr(metrics, name)
+        self.counts[k] = pair.counts
+        if pair.truth is not None:
+            velocity = pair.object_velocity
+            self._moves[k] = velocity is not None
+            self.true_speed[k] = 0.0 if velocity is None else np.linalg.norm(velocity)
+
+
+def _count(flow: SceneFlow, label: Label) -> int:
+    return int(np.count_nonzero(flow.label == label))
+
+
+def mean_speed(flow: SceneFlow) -> float:
+    """Mean speed of the points with a flow in m/s, NaN without any."""
+    speeds = lengths(flow.velocity)[:, None]
+    return float(means_of(flow_sums(flow, speeds))[0])
 
 
 def valid_share(cloud: Cloud) -> float:
     """Share of a cloud's zones that have a range, NaN without zones."""
     zones = np.count_nonzero(np.isfinite(cloud.directions[..., 0]))
     return np.count_nonzero(np.isfinite(cloud.ranges)) / zones if zones else np.nan
-
-
-def coarse_to_fine(size: int) -> list[int]:
-    """Permutation of `range(size)`, every 16th first, so that a plot shows its shape early."""
-    return sorted(range(size), key=lambda k: (-min(k & -k, 16) if k else -16, k))

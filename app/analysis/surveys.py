@@ -4,19 +4,26 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from itertools import islice
 
 from app.analysis.cache import Cache
 from app.analysis.estimates import Estimates
+from app.analysis.kept_rounds import KeptRounds, without_thresholds
 from app.analysis.library import Opened
 from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
+from app.analysis.survey_order import survey_order
 from app.errors import UserError
 from estimator import Parameters, current_engine
 
 _CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
+_AT_ONCE = 4 * _CORES  # pairs between two looks for foreground work, while there is none
+_SHORT = 1000  # frames up to which what is known is filled in while a person waits
+_BLOCK = 128  # pairs whose rounds are kept together, while the estimates' caches hold them
+_KEPT = 4  # recordings, or settings of one, whose rounds are kept
 _LOG = logging.getLogger(__name__)
 _QUIET = (
     0.2  # seconds without foreground work before the next pairs, so that sliders stay responsive
@@ -27,15 +34,31 @@ _NOTIFY_INTERVAL = 0.3  # minimum seconds between two notifications
 
 @dataclass
 class _Request:
-    """A requested survey; no more notifications once `wanted` is false."""
+    """A requested survey.
+
+    Attributes:
+        wanted: no more notifications once this is false.
+        filled: whether what is known without an estimate was filled in.
+        unkept: frames whose rounds are to be kept next.
+    """
 
     opened: Opened
     parameters: Parameters
+    survey: Survey
     notify: Callable[[Survey], None]
+    near: int
     wanted: bool = True
+    filled: bool = False
     notified: float = field(default=float("-inf"))
-    survey: Survey | None = None
     failed: bool = False
+    unkept: list[int] = field(default_factory=list[int])
+    _order: Iterator[int] | None = None
+
+    def next_frames(self, most: int) -> list[int]:
+        """Next frames to compute, at most so many; none once all are done."""
+        if self._order is None:
+            self._order = iter(survey_order(len(self.survey), self.near))
+        return list(islice((k for k in self._order if not self.survey.done[k]), most))
 
 
 class Surveys:
@@ -49,6 +72,7 @@ class Surveys:
     def __init__(self, estimates: Estimates, size: int = 16) -> None:
         self._estimates = estimates
         self._surveys: Cache[tuple, Survey] = Cache(size)
+        self._kept: Cache[tuple, KeptRounds] = Cache(_KEPT)
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}
         self._thread: threading.Thread | None = None
@@ -60,7 +84,8 @@ class Surveys:
         opened: Opened,
         parameters: Parameters,
         notify: Callable[[Survey], None],
-    ) -> None:
+        near: int = 0,
+    ) -> Survey:
         """Request a survey, in place of the owner's earlier one.
 
         Args:
@@ -69,14 +94,33 @@ class Surveys:
             parameters: of the estimates.
             notify: called with the survey by the background thread, repeatedly and when it is
                 complete; must not block.
+            near: the frame that is looked at; it and its neighbours come first.
+
+        Returns:
+            The survey, with what is known already; where all is, `notify` is not called.
         """
+        self.cancel(owner)
+        survey = self._surveys.get(
+            (opened.key, current_engine().name, parameters),
+            lambda: Survey(opened.recording, parameters),
+        )
+        request = _Request(opened, parameters, survey, notify, near)
+        if len(survey) <= _SHORT:
+            self._fill_from_known(request)
+        if survey.complete:
+            return survey
         with self._changed:
-            self._withdraw(owner)
-            self._requests[owner] = _Request(opened, parameters, notify)
+            self._requests[owner] = request
             if self._thread is None:
                 # Not a daemon: it must not be cut off inside of Open3D when the program ends.
                 self._thread = threading.Thread(target=self._run, name="surveys")
                 self._thread.start()
+        return survey
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is left to do."""
+        return self._thread is None
 
     def known(self, opened: Opened, parameters: Parameters) -> Survey | None:
         """The survey as far as it is filled, None if it is not cached."""
@@ -99,12 +143,14 @@ class Surveys:
                     return
                 turn = list(self._requests.items())
             for owner, request in turn:
-                self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
+                foreground = self._estimates.foreground
+                quiet = foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
                 try:
-                    if request.wanted and self._advance(request):
+                    if request.wanted and self._advance(request, _AT_ONCE if quiet else _CORES):
                         self._finish(owner, request)
                 except Exception:
-                    _LOG.exception("A survey could not go on.")
+                    if request.wanted:  # else its recording may have been closed meanwhile
+                        _LOG.exception("A survey could not go on.")
                     self._finish(owner, request)
 
     def _finish(self, owner: Hashable, request: _Request) -> None:
@@ -112,27 +158,67 @@ class Surveys:
             if self._requests.get(owner) is request:
                 del self._requests[owner]
 
-    def _advance(self, request: _Request) -> bool:
-        """Fill in a frame a core, and return whether the request is finished."""
-        opened, parameters = request.opened, request.parameters
-        survey = request.survey = request.survey or self._surveys.get(
-            (opened.key, current_engine().name, parameters),
-            lambda: Survey(opened.recording, parameters),
-        )
+    def _fill_from_known(self, request: _Request) -> None:
+        """Fill in what is known without an estimate."""
+        request.filled = True
+        survey, opened, parameters = request.survey, request.opened, request.parameters
+        if kept := self._kept_rounds(opened, parameters):
+            kept.fill(survey)
         for known in self._estimates.cached(opened, parameters):
             if not survey.done[known.frame]:  # already computed by playing or scrubbing
                 survey.put(known.frame, known)
-        frames = survey.missing(_CORES)
-        pairs = list(self._pool.map(lambda k: self._pair(request, k), frames))
-        if not request.wanted:
-            return True  # its recording may have been closed meanwhile
-        for k, pair in zip(frames, pairs, strict=True):
+
+    def _kept_rounds(self, opened: Opened, parameters: Parameters) -> KeptRounds | None:
+        settings = without_thresholds(parameters)
+        if settings is None:
+            return None
+        return self._kept.get(
+            (opened.key, current_engine().name, settings),
+            lambda: KeptRounds(opened.recording, settings),
+        )
+
+    def _advance(self, request: _Request, most: int) -> bool:
+        """Fill in some frames, or keep their rounds, and return whether the request is finished."""
+        if not request.filled:
+            self._fill_from_known(request)
+            self._tell(request)
+        kept = self._kept_rounds(request.opened, request.parameters)
+        frames = [] if len(request.unkept) >= _BLOCK else request.next_frames(most)
+        if frames:
+            self._fill(request, frames)
+            if kept is not None:
+                request.unkept += [k for k in frames if kept.wants(k)]
+        elif kept is not None:
+            self._keep(request, kept, most)
+        return not (request.wanted and (frames or request.unkept))
+
+    def _fill(self, request: _Request, frames: list[int]) -> None:
+        survey = request.survey
+        for k, pair in zip(
+            frames, self._pool.map(lambda k: self._pair(request, k), frames), strict=True
+        ):
+            if not request.wanted:
+                return  # its recording may have been closed meanwhile
             survey.put(k, pair)
-        now = time.monotonic()
+        self._tell(request)
+
+    def _tell(self, request: _Request) -> None:
+        """Notify whoever asked, unless that was done shortly before and there is more to come."""
+        survey, now = request.survey, time.monotonic()
         if survey.complete or now - request.notified > max(_NOTIFY_INTERVAL, len(survey) * 2e-4):
             request.notified = now
             request.notify(survey)
-        return survey.complete
+
+    def _keep(self, request: _Request, kept: KeptRounds, most: int) -> None:
+        frames, request.unkept = request.unkept[:most], request.unkept[most:]
+
+        def keep(k: int) -> None:
+            pair = self._pair(request, k)
+            if pair is not None and pair.flow is not None and request.wanted:
+                clusters = self._estimates.all_rounds(request.opened, k, request.parameters)
+                kept.put(pair, clusters, request.survey)
+
+        list(self._pool.map(keep, frames))
 
     def _pair(self, request: _Request, k: int) -> Pair | None:
         try:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.analysis.evaluation import moves
+from app.analysis.pairs import moves
 from recordings import Recording
 
 # In median intervals: a missing frame makes 2; jitter alone makes up to 1.7.

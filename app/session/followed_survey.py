@@ -31,7 +31,7 @@ class FollowedSurvey:
             to `receive`.
 
     Attributes:
-        survey: as far as it is filled, None before the first update.
+        survey: as far as it is filled, None where none is followed.
         revision: number of updates, since a survey is filled in place.
     """
 
@@ -46,20 +46,22 @@ class FollowedSurvey:
         """Whether the survey of a recording with these parameters, by this engine, is followed."""
         return self._requested == (opened, parameters, current_engine())
 
-    def follow(self, opened: Opened, parameters: Parameters) -> None:
+    def follow(self, opened: Opened, parameters: Parameters, near: int) -> None:
         """Request the survey of a recording with these parameters, unless it is followed already.
 
         Args:
             opened: must stay open until the next `follow` or `stop`.
             parameters: of the estimates.
+            near: the frame that is looked at.
         """
         if self.follows(opened, parameters):
             return
         requested = (opened, parameters, current_engine())
-        self._requested, self.survey, notify = requested, None, self._notify
-        self._surveys.request(
-            self, opened, parameters, lambda survey: notify(SurveyUpdate(requested, survey))
+        self._requested, notify = requested, self._notify
+        self.survey = self._surveys.request(
+            self, opened, parameters, lambda survey: notify(SurveyUpdate(requested, survey)), near
         )
+        self.revision += 1
 
     def receive(self, update: SurveyUpdate) -> None:
         """Apply an update, unless another survey was requested meanwhile."""

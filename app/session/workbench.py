@@ -126,7 +126,7 @@ class Workbench:
             self._drawing.draw(self.opened, self.frame, parameters, comparison)
         finally:
             other = comparison.other if comparison else None
-            self.surveys.follow(self.opened, parameters, other)
+            self.surveys.follow(self.opened, parameters, other, self.frame)
         self.inspection.follow(self.opened, self.pair, parameters.max_range, self.settings)
 
     def seek(self, frame: int) -> None:

@@ -7,20 +7,18 @@ from functools import partial
 from typing import Any
 
 from benchmarks import naive, slider
-from benchmarks.inputs import fresh, sample_windows, whole_windows, windows_of
+from benchmarks.inputs import fresh, sample_windows, windows_of
 from benchmarks.rows import Row, against_naive, milliseconds
 from estimator import Parameters, Window, estimate
 from recordings import sample_paths
 
-_GAMMA, _DELTA, _N_MIN, _N = 0.6, 0.05, 40, 6
+_N_MIN, _N = 40, 6
 _TIMES = 3
 
 
 def measure() -> Iterator[Row]:
-    """γ and δ of a whole recording; N_min and n of a pair; n from the slider to the wire."""
-    whole, pairs = whole_windows(), sample_windows()
-    for name, value in (("gamma", _GAMMA), ("delta", _DELTA)):
-        yield _changed(f"{name}, {len(whole)} pairs, the rest kept", [whole], {name: value})
+    """N_min and n of a pair, and n from the slider to the wire."""
+    pairs = sample_windows()
     alone = [[pair] for pair in pairs]
     yield _changed("n_min, a pair, the rest kept", alone, {"n_min": _N_MIN})
     # Another n pairs other clouds: of an estimate with the default n nothing can be used again.

@@ -103,9 +103,9 @@ def test_a_request_that_is_cancelled_is_not_told_of_and_the_thread_ends(library)
     started, go_on = threading.Event(), threading.Event()
 
     class Held(Foreground):
-        def wait_until_quiet(self, seconds, at_most=0.0):
+        def wait_until_quiet(self, seconds, at_most=0.0) -> bool:
             started.set()
-            go_on.wait(10)
+            return go_on.wait(10)
 
     catalogue, told = Catalogue(library, Held()), {}
     catalogue.request("one", library.listing(), told.update)

@@ -6,7 +6,7 @@ import pytest
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import EvaluationCase, evaluate, evaluate_all
 from app.analysis.quantities import QUANTITIES
-from app.analysis.survey import Survey, coarse_to_fine, valid_share
+from app.analysis.survey import Survey, valid_share
 from estimator import Parameters
 from recordings import PairTruth, RecordingError, open_recording
 from tests.app.fake_recordings import FRAMES, PERIOD, fake_opened, fake_recording
@@ -16,8 +16,7 @@ from tests.recordings.room import write_room
 def filled(opened, parameters, estimates=None):
     estimates = estimates or Estimates()
     survey = Survey(opened.recording, parameters)
-    while frames := survey.missing(1):
-        (k,) = frames
+    for k in np.flatnonzero(~survey.done).tolist():
         survey.put(k, estimates.estimated(opened, k, parameters))
     return survey
 
@@ -190,16 +189,7 @@ def test_without_truth_there_is_a_flow_alone():
 
 def test_a_broken_frame_is_done_and_empty():
     survey = Survey(fake_recording(), Parameters())
-    first, second, third = survey.missing(3)
-    survey.put(first, None)
-    assert survey.done[first]
-    assert np.isnan(survey.moving[first])
-    assert survey.missing(2) == [second, third]
-
-
-@pytest.mark.parametrize("size", [1, 2, 16, 17, 100])
-def test_the_order_is_every_frame_once_and_the_shape_first(size):
-    order = coarse_to_fine(size)
-    assert sorted(order) == list(range(size))
-    coarse = len(range(0, size, 16))
-    assert order[:coarse] == list(range(0, size, 16))
+    survey.put(20, None)
+    assert survey.done[20]
+    assert np.isnan(survey.moving[20])
+    assert not survey.done[21]

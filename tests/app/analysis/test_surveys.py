@@ -1,6 +1,7 @@
 import os
 import threading
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -51,7 +52,7 @@ def test_a_survey_is_filled_and_told(runs):
     until(lambda: listener.complete)
     assert (listener.told[-1][1].moving[8:] == 100).all()
     assert len(runs) == FRAMES - 8
-    until(lambda: surveys._thread is None)  # no thread without requests
+    until(lambda: surveys.idle)  # no thread without requests
 
 
 def test_what_was_computed_is_not_computed_again(runs):
@@ -63,10 +64,58 @@ def test_what_was_computed_is_not_computed_again(runs):
     assert len(runs) == FRAMES - 8
     estimates.estimated(opened, 30, Parameters())  # scrubbing
     again = Listener()
-    surveys.request("you", opened, Parameters(), again)
-    until(lambda: again.complete)
-    assert again.told[-1][1] is listener.told[-1][1]
+    assert surveys.request("you", opened, Parameters(), again) is listener.told[-1][1]
+    assert again.told == []  # there is nothing to wait for
     assert len(runs) == FRAMES - 8
+
+
+@pytest.mark.parametrize("change", [{"gamma": 0.3}, {"delta": 0.1}, {"n_min": 20}])
+def test_other_thresholds_are_answered_from_the_rounds_at_once(runs, change):
+    surveys, opened = Surveys(Estimates()), fake_opened()
+    surveys.request("me", opened, Parameters(), lambda _: None)
+    until(lambda: surveys.idle)
+    survey = surveys.request("me", opened, replace(Parameters(), **change), lambda _: None)
+    assert survey.complete
+    assert len(runs) == FRAMES - 8
+    expected = 0 if change == {"delta": 0.1} else 100
+    assert (survey.moving[8:] == expected).all()
+
+
+def test_another_method_or_n_is_estimated(runs):
+    surveys, opened = Surveys(Estimates()), fake_opened()
+    surveys.request("me", opened, Parameters(), lambda _: None)
+    until(lambda: surveys.idle)
+    for change in ({"method": "baseline"}, {"n": 7}):
+        assert not surveys.request(
+            "me", opened, replace(Parameters(), **change), lambda _: None
+        ).done[20]
+        until(lambda: surveys.idle)
+    assert len(runs) == FRAMES - 8 + FRAMES - 8 + FRAMES - 7
+
+
+def test_what_is_known_of_a_long_recording_is_filled_in_by_the_background(monkeypatch):
+    monkeypatch.setattr("app.analysis.surveys._SHORT", 10)
+    surveys, opened, listener = Surveys(Estimates()), fake_opened(), Listener()
+    surveys.request("me", opened, Parameters(), lambda _: None)
+    until(lambda: surveys.idle)
+    assert not surveys.request("me", opened, Parameters(delta=0.1), listener).done[20]
+    until(lambda: listener.complete)
+    assert len(listener.told) == 1
+
+
+def test_the_frame_that_is_looked_at_and_its_neighbours_come_first():
+    estimates, asked = Estimates(), []
+    real = estimates.estimated_in_background
+
+    def estimate(opened, k, parameters):
+        asked.append(k)
+        return real(opened, k, parameters)
+
+    estimates.estimated_in_background = estimate
+    surveys = Surveys(estimates)
+    surveys.request("me", fake_opened(), Parameters(), lambda _: None, near=25)
+    until(lambda: surveys.idle)
+    assert sorted(asked[:17]) == list(range(17, 34))
 
 
 def test_the_next_question_takes_the_place_of_the_last(runs):
@@ -88,7 +137,7 @@ def test_a_cancelled_request_gets_no_more_notifications():
     surveys.request("me", fake_opened(), Parameters(), listener)
     until(lambda: listener.told)
     surveys.cancel("me")
-    until(lambda: surveys._thread is None)
+    until(lambda: surveys.idle)
     assert not listener.complete
 
 
@@ -182,7 +231,7 @@ def test_a_recording_that_was_closed_leaves_no_gap_behind():
         raise ValueError("read of a closed file")
 
     fake.cloud = closed
-    until(lambda: surveys._thread is None)
+    until(lambda: surveys.idle)
     again = Listener()
     surveys.request("me", fake_opened(), Parameters(), again)
     until(lambda: again.complete)

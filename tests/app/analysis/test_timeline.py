@@ -13,6 +13,7 @@ from app.analysis.surveys import Surveys
 from app.analysis.timeline import Timeline, gaps, has_counting_pair, neighbour, stretches
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
+from tests.app.waiting import until
 
 
 def still_and_moving() -> Any:
@@ -110,11 +111,8 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     assert seen.moving == ((8, 9), (12, 29), (31, 37), (39, 39))
     # Others ask for so many that this one is forgotten.
     for n in range(1, 20):
-        other = threading.Event()
-        surveys.request(
-            "you", opened, Parameters(n=30, n_min=n), lambda _, other=other: other.set()
-        )
-        assert other.wait(60)
+        survey = surveys.request("you", opened, Parameters(n=30, n_min=n), lambda _: None)
+        until(lambda survey=survey: survey.complete)
     assert surveys.known(opened, Parameters()) is None
     live._last = None if live._last is None else (*live._last[:1], 0.0, seen)
     assert live.of(opened, Parameters()) == seen

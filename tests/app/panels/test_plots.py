@@ -76,12 +76,14 @@ class Bench:
         self.show()
 
     def show(self, **changes):
-        self.survey.follow(self.opened, changes.get("parameters", Parameters()))
+        self.survey.follow(self.opened, changes.get("parameters", Parameters()), 20)
         known = {"survey": self.survey.survey, "survey_revision": self.survey.revision}
         self.panel.show(snapshot(**({"opened": self.opened} | known | changes)))
 
     def fill(self, **changes):
-        until(lambda: self.news and self.news[-1].survey.complete)
+        survey = self.survey.survey
+        assert survey is not None
+        until(lambda: survey.complete and (not self.news or self.news[-1].survey.complete))
         for news in self.news:
             self.survey.receive(news)
         self.show(**changes)
@@ -107,6 +109,7 @@ def test_the_whole_recording_is_plotted_without_being_asked(client):
 
 def test_every_frame_is_sent_once(client):
     bench = Bench(client)
+    client.take_sent()
     survey, estimates = Survey(bench.opened.recording, Parameters()), Estimates()
     for revision, k in enumerate((20, 12, 30), start=1):
         survey.put(k, estimates.estimated(bench.opened, k, Parameters()))
@@ -179,7 +182,9 @@ def test_what_was_left_is_not_plotted(client):
     assert calls(client, "outdate") == [[A]]  # drawn pale until there are others
     for news in late:
         bench.survey.receive(news)
-    assert bench.survey.survey is None
+    survey = bench.survey.survey
+    assert survey is not None
+    assert survey.parameters == still
     bench.fill(parameters=still)
     assert (bench.page.numbers(A, "moving")[8:] == 0).all()
     assert len(calls(client, "outdate")) == 1

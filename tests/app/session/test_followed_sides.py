@@ -17,8 +17,8 @@ def test_both_sides_are_followed_and_what_is_known_stays_when_they_are_switched(
     background: Any = Background()
     news: list[Any] = []
     sides, opened = FollowedSides(background, news.append), fake_opened()
-    sides.follow(opened, FIRST, None)
-    sides.follow(opened, FIRST, SECOND)
+    sides.follow(opened, FIRST, None, 20)
+    sides.follow(opened, FIRST, SECOND, 20)
     assert [parameters for parameters, _ in background.asked] == [FIRST, SECOND]
     surveys = [Survey(opened.recording, parameters) for parameters in (FIRST, SECOND)]
     for (_, notify), survey in zip(background.asked, surveys, strict=True):
@@ -26,10 +26,10 @@ def test_both_sides_are_followed_and_what_is_known_stays_when_they_are_switched(
     for one in news:
         sides.receive(one)
     assert [sides.edited.survey, sides.other.survey] == surveys
-    sides.follow(opened, SECOND, FIRST)
+    sides.follow(opened, SECOND, FIRST, 20)
     assert [sides.other.survey, sides.edited.survey] == surveys
     assert len(background.asked) == 2
-    sides.follow(opened, FIRST, None)  # B is removed
+    sides.follow(opened, FIRST, None, 20)  # B is removed
     assert sides.edited.survey is surveys[0]
     assert sides.other.survey is None
     assert len(background.asked) == 2
