@@ -146,7 +146,7 @@ class Surveys:
                 foreground = self._estimates.foreground
                 quiet = foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
                 try:
-                    if request.wanted and self._advance(request, _AT_ONCE if quiet else _CORES):
+                    if request.wanted and self._advance(request, _AT_ONCE if quiet else 1):
                         self._finish(owner, request)
                 except Exception:
                     if request.wanted:  # else its recording may have been closed meanwhile

@@ -15,6 +15,8 @@ SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 5.0)
 SHORT = 10.0
 """Seconds; shorter recordings are played again and again unless one chooses otherwise."""
 
+_TOLERANCE = 1e-6  # seconds, so that rounding does not delay a frame that was waited for
+
 LONGEST_WAIT = 5.0
 """Seconds; threads cannot wait for as long as stamps may be apart."""
 
@@ -92,16 +94,29 @@ class PlaybackClock:
 
     def advance(self, now: float) -> int:
         """The frame due at `now`; stops at the end unless looping. Only while playing."""
-        # Tolerance, so that rounding does not delay the frame that `wait` waited for.
-        stamp = self._stamp(now) + 1e-6
+        stamp = self._stamp(now) + _TOLERANCE
         loop = self.playback.loop
         if stamp < self._stamps[self._end] + (self._period if loop else 0.0):
-            return min(max(bisect.bisect_right(self._stamps, stamp) - 1, 0), self._end)
+            return self._frame_at(stamp)
         if not loop:
             self.pause()
             return self._end
         self.play(self.playback.first, now)
         return self.playback.first
+
+    def coming(self, now: float, seconds: float, count: int) -> list[int]:
+        """The next frames due after `now`, at least so many `seconds` apart; none unless playing.
+
+        Args:
+            now: seconds of a monotonic clock.
+            seconds: that the drawing of a frame takes.
+            count: of frames.
+        """
+        if not self.playing:
+            return []
+        step = max(seconds, self._period / self.playback.speed)
+        due = [self._frame_at(self._stamp(now + i * step) + _TOLERANCE) for i in range(1, count + 1)]
+        return list(dict.fromkeys(due))
 
     def wait(self, frame: int, now: float) -> float | None:
         """Seconds from `now` until the frame after `frame` is due, None if none will be.
@@ -114,6 +129,9 @@ class PlaybackClock:
         if frame < self._end:
             due = self._stamps[frame + 1]
         return min(max((due - self._stamp(now)) / self.playback.speed, 0.0), LONGEST_WAIT)
+
+    def _frame_at(self, stamp: float) -> int:
+        return min(max(bisect.bisect_right(self._stamps, stamp) - 1, 0), self._end)
 
     def _stamp(self, now: float) -> float:
         assert self._start is not None

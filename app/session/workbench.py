@@ -26,6 +26,7 @@ from app.session.drawing import Drawing
 from app.session.followed_sides import FollowedSides
 from app.session.inspection import Inspection
 from app.session.links import SavedSession
+from app.session.look_ahead import LookAhead
 from app.session.marks import Marks
 from app.session.open_requests import OpenRequests
 from app.session.outbox import Message, Notice
@@ -51,7 +52,7 @@ class Workbench:
         tasks: in the background.
 
     Attributes:
-        opening: recordings requested to be opened.
+        open_requests: recordings that are to be opened.
         opened: the open recording, None without one.
         frame: k.
         clock: of the playback.
@@ -81,19 +82,18 @@ class Workbench:
         tasks: Tasks,
     ) -> None:
         self._client = client
-        self.library, self.estimates = library, estimates
+        self.library, self.estimates, self.choice = library, estimates, choice
         self.tuning, self.settings = tuning, settings
         self.surveys, self.timeline, self.tasks = surveys, timeline, tasks
-        self.choice = choice
         self.open_requests = OpenRequests(library, choice.listing.entries)
         self.opened: Opened | None = None
         self.clock = PlaybackClock([0.0])
         self.frame = 0
         self.scene = Scene(client, settings)
-        self.framing = Framing(client, self.scene)
-        self.renderer = SceneRenderer(client, self.scene)
+        self.framing, self.renderer = Framing(client, self.scene), SceneRenderer(client, self.scene)
         self.inspection = Inspection(PointerView(client), self.scene)
         self._drawing = Drawing(client, estimates, self.scene, self.framing)
+        self._ahead = LookAhead(estimates)
         self.preset_use: PresetUse | None = None
         self.marks: Marks | None = None
         self.edited_mark = 0
@@ -118,14 +118,15 @@ class Workbench:
         """Draw the frame that is due, if anything has changed."""
         if self.opened is None:
             return
+        parameters, comparison = self.tuning.parameters, self.tuning.comparison
         if self.clock.playing:
-            self.frame = self.clock.advance(time.monotonic())
-        parameters = self.tuning.parameters
-        comparison = self.tuning.comparison
+            now = time.monotonic()
+            self.frame = self.clock.advance(now)
+            self._ahead.follow(self.opened, self.clock, now, parameters)
+        other = comparison.other if comparison else None
         try:
             self._drawing.draw(self.opened, self.frame, parameters, comparison)
         finally:
-            other = comparison.other if comparison else None
             self.surveys.follow(self.opened, parameters, other, self.frame)
         self.inspection.follow(self.opened, self.pair, parameters.max_range, self.settings)
 
@@ -255,6 +256,7 @@ class Workbench:
         """End all tasks, and release the recording."""
         self.tasks.end()
         self.choice.leave()
+        self._ahead.close()
         if self.opened is not None:
             self._release(self.opened)
             self.opened = None
@@ -280,6 +282,7 @@ class Workbench:
 
     def _release(self, opened: Opened) -> None:
         self.surveys.stop()
+        self._ahead.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:

@@ -38,6 +38,7 @@ REMEMBERED = {
     "app.analysis.catalogue",
     "app.analysis.pairs",
     "app.analysis.survey",
+    "app.analysis.kept_rounds",
     "app.analysis.comparison",
 }
 

@@ -178,3 +178,21 @@ def test_a_speed_that_is_not_offered_is_refused(speed):
     with pytest.raises(InputError, match=r"Speed must be one of 0\.1, 0\.25"):
         clock.change({"speed": speed}, 0, 0.0)
     assert clock.playback.speed == 1.0
+
+
+def test_what_comes_next_is_known_before_it_is_due():
+    clock = once()
+    assert clock.coming(0.0, 0.0, count=2) == []
+    clock.play(0, now=50.0)
+    assert clock.coming(50.0, 0.0, count=2) == [1, 2]
+    assert clock.coming(50.05, 0.0, count=3) == [1, 2]  # it is 0.3 s to the one after
+    assert clock.advance(50.0) == 0  # as if it had not been asked
+
+
+def test_who_draws_slowly_or_fast_forward_comes_to_frames_further_on():
+    clock = once(np.arange(100) / 10)
+    clock.play(0, now=50.0)
+    assert clock.coming(50.0, 0.25, count=2) == [2, 5]
+    clock.change({"speed": 5.0}, 0, now=50.0)
+    assert clock.coming(50.0, 0.06, count=2) == [3, 6]
+    assert clock.coming(69.0, 0.06, count=2) == [99]
