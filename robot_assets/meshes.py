@@ -1,5 +1,6 @@
 """Meshes of a robot's links; what cannot be used is left out and told."""
 
+import hashlib
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_assets.mesh_files import MeshError, MeshPlaces, read_mesh
+from robot_assets.mesh_files import LARGEST_FILE, MeshError, MeshPlaces, read_mesh
 
 if TYPE_CHECKING:
     import trimesh
@@ -27,6 +28,9 @@ _SPHERE = 1280
 _FARTHEST = 1e4
 """Metres from its link's origin that a shape may reach."""
 _EFFECT = "what it shows is neither drawn nor removed from the clouds"
+
+_ALONE = (".stl", ".dae", ".ply", ".glb")
+"""Formats whose files hold all of a mesh, but pictures of surfaces that are not shown."""
 
 Kind = Literal["visuals", "collisions"]
 
@@ -79,6 +83,20 @@ class RobotMeshes:
                 left -= len(mesh.faces)
                 found.setdefault(link, []).append(mesh)
         return {link: trimesh.util.concatenate(parts) for link, parts in found.items()}  # type: ignore[misc]
+
+    def digest(self, kind: Kind) -> str | None:
+        """SHA-256 of the files that `of` reads; None where one is missing, or refers to others."""
+        digest = hashlib.sha256()
+        meshes = [getattr(part.geometry, "mesh", None) for _, part in self._parts(kind)]
+        try:
+            for name in dict.fromkeys(str(mesh.filename) for mesh in meshes if mesh):
+                path = self._places.find(name)
+                if path.suffix.lower() not in _ALONE or path.stat().st_size > LARGEST_FILE:
+                    return None
+                digest.update(path.read_bytes())
+        except (MeshError, OSError):
+            return None
+        return digest.hexdigest()
 
     @property
     def warnings(self) -> list[str]:

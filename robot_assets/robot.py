@@ -1,5 +1,6 @@
 """Robot from a URDF: links, joints, meshes, and forward kinematics."""
 
+import hashlib
 import logging
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -151,6 +152,15 @@ class Robot:
         What cannot be used is left out, see `mesh_warnings`.
         """
         return self._meshes.of("visuals")
+
+    @cached_property
+    def visual_digest(self) -> str | None:
+        """SHA-256 of all that `visual_meshes` depend on, known without reading the meshes.
+
+        None where a file of theirs is missing, or is of a format whose files refer to others.
+        """
+        files = self._meshes.digest("visuals")
+        return files and hashlib.sha256(f"{files} {self.text}".encode()).hexdigest()
 
     @cached_property
     def collision_meshes(self) -> "dict[str, trimesh.Trimesh]":

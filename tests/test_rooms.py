@@ -24,7 +24,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "app.analysis": LOWER,
     "app.execution": {"app.analysis", "estimator"},
     "app.study": {"app.analysis", "app.execution", "app.output", "app.terminal", *LOWER},
-    "app.scene": {"app.browser", "app.analysis", *LOWER},
+    "app.scene": {"app.browser", "app.analysis", "app.output", *LOWER},
     "app.session": {"app.scene", "app.analysis", "app.output", *LOWER},
     "app.exports": {"app.output", *SHOWN, *LOWER},
     "app.panels": {"app.session", "app.exports", "app.output", *SHOWN, *LOWER},

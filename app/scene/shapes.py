@@ -10,7 +10,7 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from app.scene.colours import Colour
+from app.scene.kept_shapes import Part, keep_parts, kept_parts
 from robot_assets import Robot
 
 _DARKEST = 84  # lowest channel value: darker meshes are invisible on a dark background
@@ -20,21 +20,6 @@ _COARSE = 500  # faces: finer pieces are drawn with half of theirs
 _EDGE = np.radians(35.0)
 _making = threading.Lock()
 """A shape takes a second: who asks for it meanwhile waits, instead of making it, too."""
-
-
-@dataclass(frozen=True)
-class Part:
-    """A mesh of one colour.
-
-    Attributes:
-        vertices: (V, 3) metres.
-        faces: (F, 3) indices into the vertices.
-        colour: red, green, blue, 0 to 255.
-    """
-
-    vertices: NDArray[np.float32]
-    faces: NDArray[np.uint32]
-    colour: Colour
 
 
 @dataclass(frozen=True)
@@ -58,7 +43,10 @@ def robot_shape(robot: Robot) -> RobotShape:
 
 @lru_cache(maxsize=4)
 def _robot_shape(robot: Robot) -> RobotShape:
-    links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
+    links = kept_parts(robot)
+    if links is None:
+        links = {link: _parts(mesh) for link, mesh in robot.visual_meshes.items()}
+        keep_parts(robot, links)
     digest = hashlib.sha256()
     for link, parts in links.items():
         for part in parts:

@@ -115,7 +115,9 @@ class PlaybackClock:
         if not self.playing:
             return []
         step = max(seconds, self._period / self.playback.speed)
-        due = [self._frame_at(self._stamp(now + i * step) + _TOLERANCE) for i in range(1, count + 1)]
+        due = [
+            self._frame_at(self._stamp(now + i * step) + _TOLERANCE) for i in range(1, count + 1)
+        ]
         return list(dict.fromkeys(due))
 
     def wait(self, frame: int, now: float) -> float | None:
