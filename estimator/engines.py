@@ -101,5 +101,6 @@ def warm_up(engine: Engine) -> None:
     steps = np.linspace(0.0, 0.1, 6)
     patch = np.stack(np.meshgrid(steps, steps, [0.0]), axis=-1).reshape(-1, 3)
     wavy = patch + 0.01 * np.sin(40.0 * patch[:, ::-1])
+    # First what a first page may wait for: the compiled engine leaves some registrations to Open3D.
     engine.align(wavy, wavy + 0.003, 0.1)
     engine.labels(np.vstack([wavy, wavy + 2.0]), 5, None, False)

@@ -73,7 +73,7 @@ def test_only_the_chosen_one_estimates():
 def test_warming_up_runs_both_steps(engine):
     warmed, steps = counted(engine)
     warm_up(warmed)
-    assert steps == ["labels", "align"]
+    assert steps == ["align", "labels"]
 
 
 def test_warming_up_runs_all_that_is_compiled(monkeypatch):
