@@ -280,6 +280,7 @@ class Workbench:
 
     def _release(self, opened: Opened) -> None:
         self.surveys.stop()
+        self.timeline.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:

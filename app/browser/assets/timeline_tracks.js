@@ -125,7 +125,8 @@ window.tofscope.timelineTracks = (box, state) => {
     ruler(ink);
     pen.fillStyle = ink;
     pen.globalAlpha = 0.08;
-    pen.fillRect(0, MOTION[0], wide, MOTION[1]);
+    const read = state.unread ? at(state.times.length - state.unread) : wide;
+    pen.fillRect(0, MOTION[0], read, MOTION[1]);
     pen.fillRect(0, STRIP[0], wide, STRIP[1]);
     pen.globalAlpha = 1;
     for (const [first, final] of state.moving) bar(first, final, MOTION, colours.flow);
@@ -260,6 +261,7 @@ window.tofscope.timelineTracks = (box, state) => {
     const within = stretches => stretches.some(([first, end]) => first <= frame && frame <= end);
     return [`frame ${frame}, ${state.times[frame].toFixed(3)} s`,
       ...(within(state.moving) ? ["something moves"] : []),
+      ...(frame >= state.times.length - state.unread ? ["its truth is not read yet"] : []),
       ...(within(state.empty) ? ["no points"] : []),
       ...(state.gaps.includes(frame) ? ["frames are missing before this one"] : []),
       ...(known ? [`${values.title}: ${Number(value.toPrecision(4))} ${values.unit}`] : []),
