@@ -11,6 +11,9 @@ from estimator.engines import REFERENCE
 from estimator.engines import warm_up as warm_up_engine
 from recordings import Cloud
 
+_MOST_POINTS = 2**19
+"""Of the clouds, pairs or flows that are cached: 50 to 150 bytes each."""
+
 
 def warm_up() -> None:
     """Load the libraries of the reference, for what the compiled engine leaves to them."""
@@ -19,6 +22,8 @@ def warm_up() -> None:
 
 class Estimates:
     """Computes clouds, pairs and flows on demand, and caches a bounded number of each.
+
+    Those of large clouds are fewer, so that the memory is bounded, too.
 
     Args:
         clouds: maximum number of cached clouds.
@@ -31,11 +36,13 @@ class Estimates:
     """
 
     def __init__(
-        self, clouds: int = 400, pairs: int = 200, flows: int = 400, estimators: int = 16
+        self, clouds: int = 256, pairs: int = 200, flows: int = 256, estimators: int = 16
     ) -> None:
-        self._clouds: Cache[tuple, Cloud] = Cache(clouds)
-        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(pairs)
-        self._pairs: Cache[tuple, Pair] = Cache(flows)
+        self._clouds: Cache[tuple, Cloud] = Cache(clouds, _points, _MOST_POINTS)
+        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(
+            pairs, lambda prepared: _points_of_pair(prepared[0]), _MOST_POINTS
+        )
+        self._pairs: Cache[tuple, Pair] = Cache(flows, _points_of_pair, _MOST_POINTS)
         self._estimators: Cache[tuple, PairEstimator] = Cache(estimators)
         self._recorded_timelines: Cache[tuple, RecordedTimeline] = Cache(16)
         self.foreground = Foreground()
@@ -107,6 +114,14 @@ class Estimates:
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)
         return self._clouds.get(key, lambda: opened.recording.cloud(k, max_range))
+
+
+def _points(cloud: Cloud) -> int:
+    return len(cloud.points)
+
+
+def _points_of_pair(pair: Pair) -> int:
+    return 0 if pair.source is None else len(pair.source.points)
 
 
 def _identity(opened: Opened) -> tuple[tuple[str, int, int], str]:

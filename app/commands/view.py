@@ -70,10 +70,12 @@ def run(options: argparse.Namespace) -> int:
         from app.analysis.engine_switch import EngineSwitch
         from app.analysis.estimates import Estimates
         from app.analysis.library import Library
+        from app.server.memory_release import keep_together
         from app.server.server import Server
         from app.server.session import Shared
         from app.session.reload import Reloads
 
+        keep_together()
         parameters = parameters_from(options)
         library = Library(options.paths or sample_paths(), opening_from(options).open)
         entries = library.listing()

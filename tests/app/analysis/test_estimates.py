@@ -4,6 +4,7 @@ import sys
 import numpy as np
 import pytest
 
+import app.analysis.estimates
 import app.analysis.pair_estimator
 from app.analysis.estimates import Estimates
 from estimator import Label, Parameters
@@ -134,3 +135,13 @@ def test_what_is_remembered_of_pairs_is_bounded():
         for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
             estimates.estimated(opened, k, Parameters(delta=delta))
     assert len(counting.clusterings) == 4
+
+
+def test_of_large_clouds_fewer_are_cached(monkeypatch):
+    monkeypatch.setattr(app.analysis.estimates, "_MOST_POINTS", 5 * 500)
+    estimates, opened = Estimates(), fake_opened()
+    for k in range(10, 20):
+        estimates.estimated(opened, k, Parameters())
+    frames = [pair.frame for pair in estimates.cached(opened, Parameters())]
+    assert frames == [15, 16, 17, 18, 19]
+    assert len(estimates._clouds) == len(estimates._prepared) == 5
