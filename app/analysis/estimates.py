@@ -15,6 +15,9 @@ _MOST_POINTS = 2**19
 """Of the clouds, pairs or flows that are cached: 50 to 150 bytes each."""
 
 
+_PATIENCE = 0.5  # seconds that a pair in the background waits for the foreground
+
+
 def warm_up() -> None:
     """Load the libraries of the reference, for what the compiled engine leaves to them."""
     warm_up_engine(REFERENCE)
@@ -69,7 +72,9 @@ class Estimates:
         return self._pairs.get((*_identity(opened), k, parameters), make)
 
     def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
-        """`estimated` for background work, which does not count as foreground."""
+        """`estimated` for background work, which does not count as foreground and lets it pass."""
+        # Before the cache is asked: a pair that waited there would keep the foreground from it.
+        self.foreground.wait_until_quiet(0.0, _PATIENCE)
         return self._pairs.get(
             (*_identity(opened), k, parameters), lambda: self._estimate(opened, k, parameters)
         )
