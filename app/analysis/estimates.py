@@ -1,5 +1,7 @@
 """Cache of clouds, pairs and flows, shared by all sessions."""
 
+import threading
+
 from app.analysis.cache import Cache
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
@@ -15,7 +17,7 @@ _MOST_POINTS = 2**19
 """Of the clouds, pairs or flows that are cached: 50 to 150 bytes each."""
 
 
-_PATIENCE = 0.5  # seconds that a pair in the background waits for the foreground
+_PATIENCE = 0.5  # seconds that a cloud in the background waits for the foreground
 
 
 def warm_up() -> None:
@@ -49,6 +51,7 @@ class Estimates:
         self._estimators: Cache[tuple, PairEstimator] = Cache(estimators)
         self._recorded_timelines: Cache[tuple, RecordedTimeline] = Cache(16)
         self.foreground = Foreground()
+        self._loading = threading.Lock()
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The pair (k-n, k) without its flow.
@@ -73,8 +76,8 @@ class Estimates:
 
     def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """`estimated` for background work, which does not count as foreground and lets it pass."""
-        # Before the cache is asked: a pair that waited there would keep the foreground from it.
-        self.foreground.wait_until_quiet(0.0, _PATIENCE)
+        if self.known(opened, k, parameters) is None:
+            self._load_in_background(opened, k, parameters)
         return self._pairs.get(
             (*_identity(opened), k, parameters), lambda: self._estimate(opened, k, parameters)
         )
@@ -115,6 +118,18 @@ class Estimates:
         )
         # Windows are not cached: they read from the recording, which may be closed by then.
         return PreparedPair(pair, window_of(pair, opened.recording, load, stages))
+
+    def _load_in_background(self, opened: Opened, k: int, parameters: Parameters) -> None:
+        """Load the clouds of a pair, one after the other, as reading holds the interpreter.
+
+        Who goes to a frame far away then shares it with one cloud at most, not with pairs.
+        """
+        for frame in (k - parameters.n, k):
+            with self._loading:
+                # Nothing that the foreground may ask the caches for is kept from it meanwhile.
+                self.foreground.wait_until_quiet(0.0, _PATIENCE)
+                if frame >= 0:
+                    self._cloud(opened, frame, parameters.max_range)
 
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)
