@@ -111,6 +111,7 @@ def _prepare(library: "Library") -> None:
     """
     from app.analysis.estimates import warm_up
     from app.scene.shapes import robot_shape
+    from app.server.memory_release import trim
 
     first = next(iter(library.listing()), None)
     with ExitStack() as opened:
@@ -121,6 +122,7 @@ def _prepare(library: "Library") -> None:
                 if recording.robot:
                     robot_shape(recording.robot)
         warm_up()
+    trim()  # what the imports and the first drawing have left
 
 
 def _warning(host: str, address: str) -> str:

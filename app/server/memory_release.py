@@ -36,11 +36,16 @@ class MemoryRelease:
 
 
 def release() -> None:
-    """Collect garbage and return free memory to the system, where the C library can."""
+    """Collect garbage and return free memory to the system."""
     gc.collect()
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # glibc alone has it
-    if trim is not None:
-        trim(0)
+    trim()
+
+
+def trim() -> None:
+    """Return free memory to the system, where the C library can."""
+    malloc_trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # glibc alone has it
+    if malloc_trim is not None:
+        malloc_trim(0)
 
 
 def keep_together() -> None:
