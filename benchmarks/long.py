@@ -1,4 +1,4 @@
-"""An hour of a recording: opening, seeking and memory, beside a recording of two seconds.
+"""An hour of a recording, alone and in the app, beside a recording of two seconds.
 
 Run: python -m benchmarks.long [--recording HOUR.mcap]
 """
@@ -17,6 +17,7 @@ from typing import TypeVar
 import numpy as np
 
 from app.command_line import main as tofscope
+from benchmarks.long_in_app import report
 from benchmarks.serving import machine
 from recordings import open_recording
 from recordings.stamp_index import STAMP_INDEX
@@ -55,6 +56,7 @@ def main() -> None:
         for what, path in (("with index", hour), ("without index", bare)):
             print(f"memory, an hour      {_alone(_memory, path):9.0f} MB   {what}")
         print(f"truth of all frames  {_alone(_truth, hour):9.1f} s")
+        report(short, [hour, bare])
 
 
 def _make(path: Path, seconds: int) -> float:

@@ -26,24 +26,34 @@ _CLOUDS = (TARGET_NODE, STATIC_TARGET_NODE)  # without a flow the points are all
 _SHOWN_FRAME = re.compile(r"window\.tofscope\.timeline\.frame\((\d+)\);")
 
 
-class _Frames:
-    """Arrival times of clouds, and numbers of the frames that arrived."""
+class Frames:
+    """What a client was sent of the frames that it was shown.
+
+    Attributes:
+        clouds: seconds at which clouds came.
+        numbers: of the frames, each told after its cloud.
+        drawn: seconds at which the last number came.
+    """
 
     def __init__(self) -> None:
         self.clouds: list[float] = []
         self.numbers: list[int] = []
+        self.drawn = 0.0
         self._drawn = False  # whether a cloud came since the last number
 
     def listen(self, now: float, message: dict[str, Any]) -> None:
+        """Note a message."""
         if message["type"] == "SceneNodeUpdateMessage" and message["name"] in _CLOUDS:
             if "points" in message["updates"] and not self._drawn:
                 self.clouds.append(now)
                 self._drawn = True
         elif found := _SHOWN_FRAME.fullmatch(str(message.get("source"))):
+            self.drawn = now
             self.numbers.append(int(found[1]))
             self._drawn = False
 
     def forget(self) -> None:
+        """Begin anew."""
         self.clouds.clear()
         self.numbers.clear()
         self._drawn = False
@@ -76,19 +86,26 @@ class Played:
 @contextmanager
 def playing(*paths: Path) -> Iterator[Callable[[float, float], Played | None]]:
     """Serve recordings to one client; gives what plays them at a speed for a time in seconds."""
-    frames = _Frames()
+    frames = Frames()
     with serving(*paths) as served, WireClient(served.address, frames.listen) as client:
         wait_until(lambda: frames.clouds, 120)
         time.sleep(_SETTLE)
-        yield partial(_play, served, client, frames)
+        yield partial(_from_the_start, served, client, frames)
 
 
-def _play(
-    served: Served, client: WireClient, frames: _Frames, speed: float, seconds: float
+def _from_the_start(
+    served: Served, client: WireClient, frames: Frames, speed: float, seconds: float
 ) -> Played | None:
-    client.tell("playback", {"speed": speed, "loop": True})
     client.trigger("First frame")
     time.sleep(1.0)
+    return play(served, client, frames, speed, seconds)
+
+
+def play(
+    served: Served, client: WireClient, frames: Frames, speed: float, seconds: float
+) -> Played | None:
+    """Play from the current frame; None where hardly anything came."""
+    client.tell("playback", {"speed": speed, "loop": True})
     frames.forget()
     before, start, received = served.seconds(), time.perf_counter(), client.received
     client.trigger("Play or pause")

@@ -30,6 +30,10 @@ class Served:
         """MB of memory that the server has in use (Linux alone tells)."""
         return self._status("VmRSS") / 1024
 
+    def peak(self) -> float:
+        """MB of memory that it had in use at most (Linux alone tells)."""
+        return self._status("VmHWM") / 1024
+
     def threads(self) -> int:
         """Number of the server's threads."""
         return int(self._status("Threads"))

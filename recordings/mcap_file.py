@@ -31,7 +31,7 @@ from recordings.mcap_index import index_of
 from recordings.mcap_records import BROKEN, RECORD_HEAD, RecordFile, broken_text
 
 _Record = TypeVar("_Record", Attachment, Metadata)
-_CACHED_BYTES = 64 * 2**20  # of decompressed chunks
+_CACHED_BYTES = 24 * 2**20  # of decompressed chunks
 
 
 class McapFile:

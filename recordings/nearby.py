@@ -24,7 +24,7 @@ BLOCK = 8
 """Frames that are computed together."""
 _APART = 8  # chunks in which the readings of a block may lie
 _ENDS = 3  # chunks at the beginning and at the end, from which a topic is known
-_KEPT = 48  # chunks of a topic whose samples are kept
+_KEPT = 24  # chunks of a topic whose samples are kept
 _STEPS = (1, 2, 4, 8)  # chunks by which the search for further samples goes on
 
 

@@ -26,7 +26,7 @@ from robot_assets import Rig, Robot, SelfFilter, Transform
 from robot_assets.printable import printable
 
 _CACHED_FRAMES, _LEAST_CACHED = 512, 16
-_CACHED_ZONES = 2**20  # of all cached frames, each some 50 bytes
+_CACHED_ZONES = 2**19  # of all cached frames, each some 50 bytes
 DEFAULT_MAX_RANGE = 4.0
 
 

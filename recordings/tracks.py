@@ -29,10 +29,11 @@ class PoseTrack:
     rotation: NDArray[np.float64]
 
     def near(self, stamps: Stamps) -> "PoseTrack":
-        """The part of the track that `at` needs for increasing stamps (K,)."""
-        low = max(int(np.searchsorted(self.stamps, stamps[0], side="right")) - 1, 0)
-        high = int(np.searchsorted(self.stamps, stamps[-1], side="left")) + 1
-        return PoseTrack(self.stamps[low:high], self.translation[low:high], self.rotation[low:high])
+        """The samples that `at` needs for stamps (K,): the two around each."""
+        after = np.searchsorted(self.stamps, stamps, side="left")
+        before = np.searchsorted(self.stamps, stamps, side="right") - 1
+        rows = np.unique(np.clip([before, after], 0, len(self.stamps) - 1))
+        return PoseTrack(self.stamps[rows], self.translation[rows], self.rotation[rows])
 
     def at(self, stamps: Stamps) -> NDArray[np.float64]:
         """Poses (K, 4, 4), linear in position and slerp in rotation, NaN outside the track."""

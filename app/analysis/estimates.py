@@ -1,5 +1,7 @@
 """Cache of clouds, pairs and flows, shared by all sessions."""
 
+import threading
+
 from app.analysis.cache import Cache
 from app.analysis.foreground import Foreground
 from app.analysis.library import Opened
@@ -13,6 +15,12 @@ from estimator.flow import ClusterResult
 from estimator.outcomes import all_rounds
 from recordings import Cloud
 
+_MOST_POINTS = 2**19
+"""Of the clouds, pairs or flows that are cached: 50 to 150 bytes each."""
+
+
+_PATIENCE = 0.5  # seconds that a cloud in the background waits for the foreground
+
 
 def warm_up() -> None:
     """Load the libraries of the reference, for what the compiled engine leaves to them."""
@@ -21,6 +29,8 @@ def warm_up() -> None:
 
 class Estimates:
     """Computes clouds, pairs and flows on demand, and caches a bounded number of each.
+
+    Those of large clouds are fewer, so that the memory is bounded, too.
 
     Args:
         clouds: maximum number of cached clouds.
@@ -33,14 +43,17 @@ class Estimates:
     """
 
     def __init__(
-        self, clouds: int = 400, pairs: int = 200, flows: int = 400, estimators: int = 16
+        self, clouds: int = 256, pairs: int = 200, flows: int = 256, estimators: int = 16
     ) -> None:
-        self._clouds: Cache[tuple, Cloud] = Cache(clouds)
-        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(pairs)
-        self._pairs: Cache[tuple, Pair] = Cache(flows)
+        self._clouds: Cache[tuple, Cloud] = Cache(clouds, _points, _MOST_POINTS)
+        self._prepared: Cache[tuple, tuple[Pair, Stages]] = Cache(
+            pairs, lambda prepared: _points_of_pair(prepared[0]), _MOST_POINTS
+        )
+        self._pairs: Cache[tuple, Pair] = Cache(flows, _points_of_pair, _MOST_POINTS)
         self._estimators: Cache[tuple, PairEstimator] = Cache(estimators)
         self._recorded_timelines: Cache[tuple, RecordedTimeline] = Cache(16)
         self.foreground = Foreground()
+        self._loading = threading.Lock()
 
     def pair(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
         """The pair (k-n, k) without its flow.
@@ -64,7 +77,9 @@ class Estimates:
         return self._pairs.get((*_identity(opened), k, parameters), make)
 
     def estimated_in_background(self, opened: Opened, k: int, parameters: Parameters) -> Pair:
-        """`estimated` for background work, which does not count as foreground."""
+        """`estimated` for background work, which does not count as foreground and lets it pass."""
+        if self.known(opened, k, parameters) is None:
+            self._load_in_background(opened, k, parameters)
         return self._pairs.get(
             (*_identity(opened), k, parameters), lambda: self._estimate(opened, k, parameters)
         )
@@ -117,9 +132,29 @@ class Estimates:
         # Windows are not cached: they read from the recording, which may be closed by then.
         return PreparedPair(pair, window_of(pair, opened.recording, load, stages))
 
+    def _load_in_background(self, opened: Opened, k: int, parameters: Parameters) -> None:
+        """Load the clouds of a pair, one after the other, as reading holds the interpreter.
+
+        Who goes to a frame far away then shares it with one cloud at most, not with pairs.
+        """
+        for frame in (k - parameters.n, k):
+            with self._loading:
+                # Nothing that the foreground may ask the caches for is kept from it meanwhile.
+                self.foreground.wait_until_quiet(0.0, _PATIENCE)
+                if frame >= 0:
+                    self._cloud(opened, frame, parameters.max_range)
+
     def _cloud(self, opened: Opened, k: int, max_range: float) -> Cloud:
         key = (opened.key, k, max_range)
         return self._clouds.get(key, lambda: opened.recording.cloud(k, max_range))
+
+
+def _points(cloud: Cloud) -> int:
+    return len(cloud.points)
+
+
+def _points_of_pair(pair: Pair) -> int:
+    return 0 if pair.source is None else len(pair.source.points)
 
 
 def _identity(opened: Opened) -> tuple[tuple[str, int, int], str]:

@@ -2,12 +2,16 @@
 
 import logging
 import time
+from collections.abc import Iterator, Sequence
+from itertools import chain, islice
 
 import numpy as np
 
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import counting_pairs
 from app.analysis.library import Opened
+from app.analysis.pairs import moves
+from app.analysis.timeline import is_long
 from app.errors import UserError
 from estimator import Parameters
 from recordings import Recording
@@ -17,6 +21,7 @@ _TRIED = 9  # frames at most
 _SECONDS, _LONGEST = 1.5, 4.0
 """Limits of the search, so that opening stays quick: once something moves, and until then."""
 _ENOUGH = 20  # moving points at which the search ends
+_PROBES = 65  # frames of a long recording whose truth is looked at
 
 
 def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Estimates) -> int:
@@ -30,9 +35,9 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
         estimates: computes and caches flows.
     """
     tried = candidates(opened.recording, parameters.n)
-    best, most, seen = tried[0], 0, 0
+    best, most, seen = next(tried), 0, 0
     start = time.monotonic()
-    for frame in tried:
+    for frame in chain([best], tried):
         try:
             pair = estimates.estimated(opened, frame, parameters)
         except UserError:
@@ -48,14 +53,32 @@ def first_frame_with_flow(opened: Opened, parameters: Parameters, estimates: Est
     return best
 
 
-def candidates(recording: Recording, n: int) -> list[int]:
-    """Frames to try, from the middle of the true motion outwards.
+def candidates(recording: Recording, n: int) -> Iterator[int]:
+    """Frames to try, at least one, from the middle of the true motion outwards.
 
-    Without truth, from the middle of the recording.
+    Without truth, from the middle of the recording. The truth of a long recording is looked at in
+    some of its frames alone, one after the other, as candidates are asked for.
     """
-    frames = [k for _, k in counting_pairs(recording, n)]
-    frames = frames or list(range(min(n, len(recording) - 1), len(recording)))
-    spread = np.linspace(0, len(frames) - 1, _TRIED + 2).round().astype(int)[1:-1]
+    every = range(min(n, len(recording) - 1), len(recording))
+    if not is_long(recording):
+        yield from _middle_first([k for _, k in counting_pairs(recording, n)] or every, _TRIED)
+        return
+    found = (k for k in _middle_first(every, _PROBES) if _counts(recording, n, k))
+    first = next(found, None)
+    if first is None:
+        yield from _middle_first(every, _TRIED)
+    else:
+        yield from chain([first], islice(found, _TRIED - 1))
+
+
+def _middle_first(frames: Sequence[int], most: int) -> list[int]:
+    """The middle one of some frames and others, evenly spread, the nearest to it first."""
+    spread = np.linspace(0, len(frames) - 1, most + 2).round().astype(int)[1:-1]
     middle = len(frames) // 2
     near_first = sorted({middle, *spread.tolist()}, key=lambda i: abs(i - middle))
-    return [frames[i] for i in near_first[:_TRIED]]
+    return [frames[i] for i in near_first[:most]]
+
+
+def _counts(recording: Recording, n: int, k: int) -> bool:
+    """Whether the object truly moves at both frames of a pair."""
+    return k >= n and moves(recording, k) and moves(recording, k - n)

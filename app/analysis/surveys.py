@@ -21,8 +21,9 @@ from estimator import Parameters, current_engine
 
 _CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
 _AT_ONCE = 4 * _CORES  # pairs between two looks for foreground work, while there is none
+_MOST_FRAMES = 2**18  # of all cached surveys together, some 300 bytes each
 _SHORT = 1000  # frames up to which what is known is filled in while a person waits
-_BLOCK = 128  # pairs whose rounds are kept together, while the estimates' caches hold them
+_BLOCK = 32  # pairs whose rounds are kept together, while the estimates' caches hold them
 _KEPT = 4  # recordings, or settings of one, whose rounds are kept
 _LOG = logging.getLogger(__name__)
 _QUIET = (
@@ -71,7 +72,7 @@ class Surveys:
 
     def __init__(self, estimates: Estimates, size: int = 16) -> None:
         self._estimates = estimates
-        self._surveys: Cache[tuple, Survey] = Cache(size)
+        self._surveys: Cache[tuple, Survey] = Cache(size, len, _MOST_FRAMES)
         self._kept: Cache[tuple, KeptRounds] = Cache(_KEPT)
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}

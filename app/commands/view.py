@@ -70,10 +70,12 @@ def run(options: argparse.Namespace) -> int:
         from app.analysis.engine_switch import EngineSwitch
         from app.analysis.estimates import Estimates
         from app.analysis.library import Library
+        from app.server.memory_release import keep_together
         from app.server.server import Server
         from app.server.session import Shared
         from app.session.reload import Reloads
 
+        keep_together()
         parameters = parameters_from(options)
         library = Library(options.paths or sample_paths(), opening_from(options).open)
         entries = library.listing()
@@ -109,6 +111,7 @@ def _prepare(library: "Library") -> None:
     """
     from app.analysis.estimates import warm_up
     from app.scene.shapes import robot_shape
+    from app.server.memory_release import trim
 
     first = next(iter(library.listing()), None)
     with ExitStack() as opened:
@@ -119,6 +122,7 @@ def _prepare(library: "Library") -> None:
                 if recording.robot:
                     robot_shape(recording.robot)
         warm_up()
+    trim()  # what the imports and the first drawing have left
 
 
 def _warning(host: str, address: str) -> str:

@@ -112,8 +112,9 @@ def _jump(workbench: Workbench, direction: int) -> None:
     frame = neighbour(timeline.moving, workbench.frame, direction)
     if frame is None:
         where = "after" if direction > 0 else "before"
-        known = workbench.opened.recording.has_truth
-        far = "" if known else " in the frames estimated so far"
+        far = " as far as the truth was read" if timeline.unread else ""
+        if not workbench.opened.recording.has_truth:
+            far = " in the frames estimated so far"
         said = f"Nothing begins to move {where} this frame{far}."
         workbench.outbox.append(Notice("Motion", said, replaces=True))
     else:

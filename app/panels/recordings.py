@@ -182,7 +182,8 @@ class RecordingsPanel(Panel):
         if paired == self._paired:
             return
         self._paired = paired
-        known = snapshot.opened.recording.has_truth and not has_counting_pair(*paired)
+        known = snapshot.opened.recording.has_truth and not snapshot.timeline.unread
+        known = known and not has_counting_pair(*paired)
         self._no_pair = f"The recording has {no_pair_note(paired[1])}." if known else ""
 
     def _say(self, name: str, said: str, notes: tuple[str, ...]) -> None:

@@ -5,10 +5,13 @@ from typing import Annotated
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 from pydantic import Field
 
 from app.analysis.library import Opened
 from app.analysis.quantities import QUANTITIES, Quantity
+from app.analysis.survey import Survey
+from app.analysis.timeline import Timeline, covered
 from app.browser.assets import ChangedCalls, call, packed, run_asset
 from app.browser.page_events import EventContent, NoContent
 from app.panels.histograms import upper_limit
@@ -133,7 +136,9 @@ class TimelinePanel(Panel):
     def _begin(self) -> None:
         """Forget what the page was told of another recording."""
         self._calls = ChangedCalls(self._client)
-        self._quantity: tuple[str, int, int] | None = None
+        self._drawn: tuple[str, Survey | None] | None = None
+        self._revision = -1
+        self._sent = np.zeros((2, 0), dtype="<f4")
         self._edited: int | None = None
 
     def open(self, opened: Opened) -> None:
@@ -146,10 +151,7 @@ class TimelinePanel(Panel):
         """Show the frame, playback, and what is known of the recording."""
         timeline, playback, settings = snapshot.timeline, snapshot.playback, snapshot.settings
         self._calls.send("timeline.colours", _colours(settings.palette))
-        self._calls.send(
-            "timeline.events",
-            {"moving": timeline.moving, "gaps": timeline.gaps, "empty": timeline.empty},
-        )
+        self._calls.send("timeline.events", _events(timeline))
         self._calls.send("timeline.playback", {"playing": snapshot.playing, **vars(playback)})
         self._calls.send("timeline.marks", [vars(mark) for mark in snapshot.marks])
         if not snapshot.seeking:
@@ -163,23 +165,37 @@ class TimelinePanel(Panel):
         recording, survey = snapshot.opened.recording, snapshot.survey
         options = drawable(has_truth=recording.has_truth)
         chosen = snapshot.settings.strip if snapshot.settings.strip in options else "moving"
-        state = (chosen, id(survey), snapshot.survey_revision)
-        if self._quantity == state:
+        fresh = (chosen, survey) != self._drawn
+        if not fresh and snapshot.survey_revision == self._revision:
             return
-        self._quantity = state
-        quantity, unknown = options[chosen], np.full(len(recording), np.nan)
-        values = quantity.values(recording, survey) if survey else unknown
+        self._drawn, self._revision = (chosen, survey), snapshot.survey_revision
+        quantity, numbers = options[chosen], np.full((2, len(recording)), np.nan, dtype="<f4")
+        if survey is not None:
+            numbers[:] = quantity.values(recording, survey), survey.valid
+        sizes = np.abs(numbers[0][np.isfinite(numbers[0])])
         about = {
             "title": quantity.title,
             "unit": quantity.unit,
-            "top": 1.0 if quantity.kind == "share" else upper_limit(np.abs(values)),
+            "top": 1.0 if quantity.kind == "share" else upper_limit([float(sizes.max(initial=0))]),
             "signed": quantity.kind == "signed",
             "options": [(name, option.title) for name, option in options.items()],
             "chosen": chosen,
             "truth": recording.has_truth,
         }
-        valid = survey.valid if survey else unknown
-        call(self._client, "timeline.quantity", about, packed(values, "<f4"), packed(valid, "<f4"))
+        self._calls.send("timeline.quantity", about)
+        self._send_numbers(numbers, fresh=fresh)
+
+    def _send_numbers(self, numbers: NDArray[np.float32], *, fresh: bool) -> None:
+        """Send the quantity and the share of valid zones (2, K), where they are new."""
+        if fresh:
+            call(self._client, "timeline.forget")
+            self._sent = np.full_like(numbers, np.nan)
+        same = (numbers == self._sent) | (np.isnan(numbers) & np.isnan(self._sent))
+        new = ~same.all(axis=0)
+        if new.any():
+            values = (packed(row[new], "<f4") for row in numbers)
+            call(self._client, "timeline.numbers", _bits(new), *values)
+        self._sent = numbers
 
 
 def drawable(*, has_truth: bool) -> dict[str, Quantity]:
@@ -190,6 +206,23 @@ def drawable(*, has_truth: bool) -> dict[str, Quantity]:
         if name in (*PLOTTED, "moving", "speed", "points", "clusters", "interval")
         and (has_truth or not quantity.needs_truth)
     }
+
+
+def _events(timeline: Timeline) -> dict[str, object]:
+    """What is marked, in a size that the number of frames bounds."""
+    gaps = np.zeros(timeline.count, dtype=bool)
+    gaps[list(timeline.gaps)] = True
+    return {
+        "moving": _bits(covered(timeline.moving, timeline.count)),
+        "empty": _bits(covered(timeline.empty, timeline.count)),
+        "gaps": _bits(gaps),
+        "unread": timeline.unread,
+    }
+
+
+def _bits(flags: NDArray[np.bool_]) -> str:
+    """Flags (K,) for our scripts, eight in a byte, the first in its highest bit."""
+    return packed(np.packbits(flags), "u1")
 
 
 def _colours(palette: Palette) -> dict[str, str]:

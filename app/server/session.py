@@ -15,6 +15,7 @@ from app.analysis.estimates import Estimates
 from app.analysis.library import Entry, Library
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
+from app.analysis.true_motions import TrueMotions
 from app.browser.opening_card import show_nothing_open
 from app.browser.page_events import PageEvents
 from app.browser.script import keep_token, prefers_dark, take_link, take_token
@@ -26,6 +27,7 @@ from app.session.choice import Choice
 from app.session.command import Command
 from app.session.commands import (
     FollowEngine,
+    LookAgain,
     Move,
     OpenFirst,
     OpenRecording,
@@ -61,6 +63,7 @@ class Shared:
         parameters: initial ones of a session.
         engine: of the estimates.
         surveys: of whole recordings, computed in the background.
+        motions: true motion of long recordings, read in the background.
         catalogue: of what is in the recordings, found out in the background.
     """
 
@@ -70,10 +73,12 @@ class Shared:
     parameters: Parameters
     engine: EngineSwitch = field(default_factory=EngineSwitch)
     surveys: Surveys = field(init=False)
+    motions: TrueMotions = field(init=False)
     catalogue: Catalogue = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "surveys", Surveys(self.estimates))
+        object.__setattr__(self, "motions", TrueMotions(self.estimates))
         catalogue = Catalogue(self.library, self.estimates.foreground)
         object.__setattr__(self, "catalogue", catalogue)
 
@@ -189,7 +194,9 @@ class Session:
             Tuning(parameters, shared.parameters),
             settings,
             FollowedSides(shared.surveys, lambda update: post(ReceiveSurveyUpdates((update,)))),
-            LiveTimeline(shared.estimates, shared.surveys),
+            LiveTimeline(
+                shared.estimates, shared.surveys, shared.motions, lambda: post(LookAgain())
+            ),
             Tasks(lambda event: post(ReceiveTaskEvents((event,)))),
         )
         events = PageEvents(self._client)

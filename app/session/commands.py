@@ -212,6 +212,14 @@ class ReceiveSurveyUpdates(Background):
 
 
 @dataclass(frozen=True)
+class LookAgain(Background, LatestWins):
+    """Show what a background thread has found since."""
+
+    def apply(self, workbench: Workbench) -> None:
+        """Change nothing: the snapshot that follows every command has what was found."""
+
+
+@dataclass(frozen=True)
 class ReceiveTaskEvents(Background):
     """Receive progress and results of background tasks."""
 

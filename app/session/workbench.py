@@ -87,8 +87,7 @@ class Workbench:
         self.surveys, self.timeline, self.tasks = surveys, timeline, tasks
         self.open_requests = OpenRequests(library, choice.listing.entries)
         self.opened: Opened | None = None
-        self.clock = PlaybackClock([0.0])
-        self.frame = 0
+        self.clock, self.frame = PlaybackClock([0.0]), 0
         self.scene = Scene(client, settings)
         self.framing, self.renderer = Framing(client, self.scene), SceneRenderer(client, self.scene)
         self.inspection = Inspection(PointerView(client), self.scene)
@@ -283,6 +282,7 @@ class Workbench:
     def _release(self, opened: Opened) -> None:
         self.surveys.stop()
         self._ahead.stop()
+        self.timeline.stop()
         self.library.release(opened.entry)
 
     def _status(self) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from typing import Any
 from app.analysis.estimates import Estimates
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
+from app.analysis.true_motions import TrueMotions
 from app.browser.page_events import PageEvents
 from app.panels.panel import PanelContext
 from app.scene.legend import Legend
@@ -73,5 +74,7 @@ def snapshot(**changes: Any) -> Snapshot:
         fields["pair"] = Estimates().estimated(opened, frame, parameters)
     if "timeline" not in changes:
         estimates = Estimates()
-        fields["timeline"] = LiveTimeline(estimates, Surveys(estimates)).of(opened, parameters)
+        motions = TrueMotions(estimates)
+        live = LiveTimeline(estimates, Surveys(estimates), motions, lambda: None)
+        fields["timeline"] = live.of(opened, parameters)
     return Snapshot(**(fields | changes))

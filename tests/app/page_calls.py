@@ -28,3 +28,9 @@ class PageCalls:
 
 def unpacked(text):
     return np.frombuffer(base64.b64decode(text), "<f4")
+
+
+def frames_of(text: str) -> list[int]:
+    """Frames whose bits are set, in a text of the timeline."""
+    bits = np.unpackbits(np.frombuffer(base64.b64decode(text), np.uint8))
+    return np.flatnonzero(bits).tolist()

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.browser.assets import packed
 from tests.browser.tab import Tab
 
 _HEIGHT = 40  # px below the top of the tracks, where nothing but the playhead is taken
@@ -201,3 +202,24 @@ def test_playback_is_as_fast_as_is_chosen(tab: Tab):
     slow, fast = advanced(tab, "0.25x"), advanced(tab, "2x")
     assert slow > 0
     assert fast > 2 * slow  # eight times as many, on a machine that has nothing else to do
+
+
+def test_what_moves_and_what_is_not_read_yet_is_told_of_each_frame(tab: Tab):
+    frames = tab.last_frame() + 1
+    moving, none = np.zeros((2, frames), dtype=bool)
+    moving[: frames // 2] = True
+    bits = {"moving": moving, "empty": none, "gaps": none}
+    sent = {name: packed(np.packbits(flags), "u1") for name, flags in bits.items()}
+    tab.page.evaluate("window.tofscope.timeline.events", sent | {"unread": frames // 4})
+    assert "something moves" in tip(tab, 0.2)
+    assert "something moves" not in tip(tab, 0.6)
+    assert "not read yet" not in tip(tab, 0.6)
+    assert "its truth is not read yet" in tip(tab, 0.9)
+
+
+def test_columns_are_covered_by_shares(tab: Tab):
+    covered = "spans => Array.from(window.tofscope.covered(spans, 4))"
+    assert tab.page.evaluate(covered, []) == [0, 0, 0, 0]
+    spans = [[-1, 0.25], [0.5, 2], [2, 2.25], [3.5, 9]]
+    assert tab.page.evaluate(covered, spans) == [0.75, 1, 0.25, 0.5]
+    assert tab.page.evaluate(covered, [[0, 4], [1, 2]]) == [1, 1, 1, 1]

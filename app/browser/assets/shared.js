@@ -48,6 +48,18 @@ window.tofscope ??= {};
     return k > 0 && time - times[k - 1] < times[k] - time ? k - 1 : k;
   };
 
+  // Share of each of some columns, from 0 on and 1 wide, that spans [start, end] cover.
+  tofscope.covered = (spans, columns) => {
+    const shares = new Float32Array(columns);
+    for (const [start, end] of spans) {
+      for (let from = Math.max(start, 0), to; from < Math.min(end, columns); from = to) {
+        to = Math.min(Math.floor(from) + 1, end);
+        shares[Math.floor(from)] += to - from;
+      }
+    }
+    return shares.map(share => Math.min(share, 1));
+  };
+
   // Keeps the height of an element in a property of the page, for what stands above or below.
   tofscope.watchHeight = (element, property) => {
     const page = document.documentElement.style;

@@ -57,7 +57,7 @@
   const state = {
     times: new Float32Array([0]), frame: 0, playing: false, speed: 1, loop: false,
     first: 0, last: 0, marks: [], moving: [], gaps: [], empty: [], values: null, zones: null,
-    colours: {flow: "#080", gap: "#c60", empty: "#999"}, held: null,
+    unread: 0, colours: {flow: "#080", gap: "#c60", empty: "#999"}, held: null,
   };
   const last = () => state.times.length - 1;
   const clip = frame => Math.min(Math.max(frame, 0), last());
@@ -155,6 +155,21 @@
   new ResizeObserver(show).observe(find(".tracks"));
 
   const floats = text => new Float32Array(tofscope.bytes(text).buffer);
+  // Frames whose bits are set: eight in a byte, the first in the highest.
+  const framesOf = text => {
+    const bytes = tofscope.bytes(text), found = [];
+    bytes.forEach((byte, n) => {
+      for (let bit = 0; bit < 8; bit++) if (byte & 128 >> bit) found.push(8 * n + bit);
+    });
+    return found;
+  };
+  // [first, last] of each run of frames.
+  const stretchesOf = frames => frames.reduce((runs, frame) => {
+    const run = runs[runs.length - 1];
+    if (run && run[1] === frame - 1) run[1] = frame; else runs.push([frame, frame]);
+    return runs;
+  }, []);
+  const unknown = () => new Float32Array(state.times.length).fill(NaN);
 
   tofscope.timeline = {
     // A newly opened recording: its frames' seconds from the start, float32 in base64.
@@ -182,15 +197,34 @@
       ranges.heard({first, last: end});
       show();
     },
-    events: events => { Object.assign(state, events); show(); },  // moving, gaps, empty
+    // What moves, where frames are missing or empty, and how many are not read yet.
+    events: ({moving, gaps, empty, unread}) => {
+      Object.assign(state, {moving: stretchesOf(framesOf(moving)), gaps: framesOf(gaps),
+        empty: stretchesOf(framesOf(empty)), unread});
+      show();
+    },
     marks: list => { state.marks = list; show(); },
     colours: colours => { state.colours = colours; show(); },
     edit: frame => marks.edit(frame),
     // The plotted quantity: {title, unit, top, signed, options: [[name, title]], chosen}.
-    quantity: (quantity, values, zones) => {
-      state.values = {...quantity, values: floats(values)};
-      state.zones = floats(zones);
+    quantity: quantity => {
+      state.values = {...quantity, values: state.values?.values ?? unknown()};
       names();
+      show();
+    },
+    // Numbers of some frames: of the quantity, and the shares of valid zones.
+    numbers: (frames, values, zones) => {
+      const numbers = floats(values), shares = floats(zones);
+      framesOf(frames).forEach((frame, n) => {
+        state.values.values[frame] = numbers[n];
+        state.zones[frame] = shares[n];
+      });
+      show();
+    },
+    // Other numbers will come.
+    forget: () => {
+      state.values.values = unknown();
+      state.zones = unknown();
       show();
     },
   };

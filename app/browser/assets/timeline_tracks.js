@@ -4,11 +4,13 @@ window.tofscope.timelineTracks = (box, state) => {
   const canvas = box.querySelector("canvas"), pen = canvas.getContext("2d");
   const RULER = 15, MOTION = [18, 8], ZONES = [31, 5], STRIP = [40, 24];  // top, height in px
   const GRIP = 7;  // px
+  const DENSE = 4;  // px for each stretch of motion, below which its share is drawn
   const view = {start: 0, end: 1};  // seconds
   const tracks = {onSeek: () => {}, onHold: () => {}, onRange: () => {}, onMark: () => {}};
 
   const duration = () => Math.max(state.times[state.times.length - 1], 1e-3);
-  const width = () => Math.max(box.clientWidth, 1);
+  let measured = 1;  // once a picture, which asks for it for each frame
+  const width = () => measured;
   const x = seconds => (seconds - view.start) / (view.end - view.start) * width();
   const at = frame => {  // `frame` may lie between two frames
     const {times} = state, place = Math.min(Math.max(frame, 0), times.length - 1);
@@ -43,6 +45,17 @@ window.tofscope.timelineTracks = (box, state) => {
     if (right < -least || left > width() + least) return;
     pen.fillStyle = colour;
     pen.fillRect(right - left < least ? (left + right - wide) / 2 : left, top, wide, height);
+  };
+
+  // Many stretches: each pixel column as dense as the share of it that they cover.
+  const shares = (stretches, [top, height], colour) => {
+    pen.fillStyle = colour;
+    const spans = stretches.map(([first, final]) => [at(first), at(final + 1)]);
+    window.tofscope.covered(spans, Math.ceil(width())).forEach((share, column) => {
+      pen.globalAlpha = share;
+      pen.fillRect(column, top, 1, height);
+    });
+    pen.globalAlpha = 1;
   };
 
   const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60,
@@ -115,6 +128,7 @@ window.tofscope.timelineTracks = (box, state) => {
   };
 
   tracks.draw = () => {
+    measured = Math.max(box.clientWidth, 1);
     const ratio = window.devicePixelRatio || 1, wide = width(), high = box.clientHeight;
     const pixels = [Math.round(wide * ratio), Math.round(high * ratio)];
     if (canvas.width !== pixels[0] || canvas.height !== pixels[1])
@@ -125,14 +139,14 @@ window.tofscope.timelineTracks = (box, state) => {
     ruler(ink);
     pen.fillStyle = ink;
     pen.globalAlpha = 0.08;
-    pen.fillRect(0, MOTION[0], wide, MOTION[1]);
+    const unread = state.unread ? wide - at(state.times.length - state.unread) : 0;
+    pen.fillRect(0, MOTION[0], wide - unread, MOTION[1]);
     pen.fillRect(0, STRIP[0], wide, STRIP[1]);
     pen.globalAlpha = 1;
-    for (const [first, final] of state.moving) bar(first, final, MOTION, colours.flow);
-    for (const [first, final] of state.empty)
-      bar(first, final, [MOTION[0], MOTION[1]], colours.empty);
-    for (const frame of state.gaps) bar(frame - 0.5, frame - 0.5, [MOTION[0] - 2, 11],
-      colours.gap, 2);
+    if (state.moving.length > wide / DENSE) shares(state.moving, MOTION, colours.flow);
+    else for (const [first, final] of state.moving) bar(first, final, MOTION, colours.flow);
+    for (const [first, final] of state.empty) bar(first, final, MOTION, colours.empty);
+    for (const k of state.gaps) bar(k - 0.5, k - 0.5, [MOTION[0] - 2, 11], colours.gap, 2);
     pen.fillStyle = ink;
     if (state.zones) zones();
     pen.fillStyle = colours.flow;
@@ -260,6 +274,7 @@ window.tofscope.timelineTracks = (box, state) => {
     const within = stretches => stretches.some(([first, end]) => first <= frame && frame <= end);
     return [`frame ${frame}, ${state.times[frame].toFixed(3)} s`,
       ...(within(state.moving) ? ["something moves"] : []),
+      ...(frame >= state.times.length - state.unread ? ["its truth is not read yet"] : []),
       ...(within(state.empty) ? ["no points"] : []),
       ...(state.gaps.includes(frame) ? ["frames are missing before this one"] : []),
       ...(known ? [`${values.title}: ${Number(value.toPrecision(4))} ${values.unit}`] : []),

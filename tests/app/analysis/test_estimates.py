@@ -1,13 +1,16 @@
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
 
+import app.analysis.estimates
 import app.analysis.pair_estimator
 from app.analysis.estimates import Estimates
 from estimator import Label, Parameters
 from tests.app.fake_recordings import PERIOD, SPEED, fake_opened, fake_recording
+from tests.app.waiting import until
 from tests.estimator.engines import Counting, using
 
 MOVING = 100  # points of the moving patch, the last of the cloud
@@ -134,3 +137,50 @@ def test_what_is_remembered_of_pairs_is_bounded():
         for k, delta in ((20, 0.01), (21, 0.01), (22, 0.01), (22, 0.02), (20, 0.02)):
             estimates.estimated(opened, k, Parameters(delta=delta))
     assert len(counting.clusterings) == 4
+
+
+def test_of_large_clouds_fewer_are_cached(monkeypatch):
+    monkeypatch.setattr(app.analysis.estimates, "_MOST_POINTS", 5 * 500)
+    estimates, opened = Estimates(), fake_opened()
+    for k in range(10, 20):
+        estimates.estimated(opened, k, Parameters())
+    frames = [pair.frame for pair in estimates.cached(opened, Parameters())]
+    assert frames == [15, 16, 17, 18, 19]
+    assert len(estimates._clouds) == len(estimates._prepared) == 5
+
+
+def test_the_background_begins_no_cloud_while_a_person_waits(monkeypatch):
+    monkeypatch.setattr(app.analysis.estimates, "_PATIENCE", 3600.0)
+    recording, loaded, go_on = fake_recording(), [], threading.Event()
+    cloud = recording.cloud
+
+    def load(k, max_range=4.0):
+        loaded.append(k)
+        if k == 30:
+            assert go_on.wait(10)
+        return cloud(k, max_range)
+
+    recording.cloud = load
+    estimates, opened = Estimates(), fake_opened(recording)
+    waiting = threading.Thread(target=lambda: estimates.estimated(opened, 30, Parameters()))
+    waiting.start()
+    until(lambda: 30 in loaded)
+    background = threading.Thread(
+        target=lambda: estimates.estimated_in_background(opened, 20, Parameters())
+    )
+    background.start()
+    background.join(0.2)
+    assert loaded == [30]
+    go_on.set()
+    background.join(10)
+    waiting.join(10)
+    assert sorted(loaded) == [12, 20, 22, 30]
+    assert estimates.known(opened, 20, Parameters()) is not None
+
+
+def test_the_background_goes_on_beside_a_person_who_never_pauses(monkeypatch):
+    monkeypatch.setattr(app.analysis.estimates, "_PATIENCE", 0.05)
+    estimates, opened = Estimates(), fake_opened()
+    with estimates.foreground:
+        assert estimates.estimated_in_background(opened, 20, Parameters()).flow is not None
+        assert estimates.estimated_in_background(opened, 3, Parameters()).flow is None

@@ -162,6 +162,7 @@ def test_it_pauses_while_foreground_work_runs():
 
 def test_where_it_is_never_quiet_every_survey_goes_on_and_none_before_the_others(monkeypatch):
     monkeypatch.setattr("app.analysis.surveys._PATIENCE", 0.2)
+    monkeypatch.setattr("app.analysis.estimates._PATIENCE", 0.02)
     estimates, ended = Estimates(), threading.Event()
     surveys = Surveys(estimates)
 

@@ -11,6 +11,7 @@ from app.analysis.library import Opened
 from app.analysis.live_timeline import LiveTimeline
 from app.analysis.surveys import Surveys
 from app.analysis.timeline import Timeline, gaps, has_counting_pair, neighbour, stretches
+from app.analysis.true_motions import TrueMotions
 from estimator import Parameters
 from tests.app.fake_recordings import FRAMES, SPEED, fake_opened, fake_recording
 from tests.app.waiting import until
@@ -49,10 +50,14 @@ def test_neighbours_of_a_frame():
     assert [neighbour(moving, k, -1) for k in (0, 5, 7, 20, 33)] == [None, None, 5, 5, 20]
 
 
+def followed(estimates: Estimates, surveys: Surveys) -> LiveTimeline:
+    return LiveTimeline(estimates, surveys, TrueMotions(estimates), lambda: None)
+
+
 def timeline(
     opened: Opened, estimates: Estimates, parameters: Parameters | None = None
 ) -> Timeline:
-    live = LiveTimeline(estimates, Surveys(estimates))
+    live = followed(estimates, Surveys(estimates))
     return live.of(opened, parameters or Parameters())
 
 
@@ -101,7 +106,7 @@ def test_a_survey_knows_of_more_frames_than_estimates_are_remembered():
     recording.cloud = some_empty
     opened, estimates = fake_opened(recording), Estimates(flows=4)
     surveys = Surveys(estimates)
-    live, complete = LiveTimeline(estimates, surveys), threading.Event()
+    live, complete = followed(estimates, surveys), threading.Event()
     surveys.request(
         "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None
     )
@@ -122,7 +127,7 @@ def test_what_a_survey_finds_last_is_in_the_timeline_at_once(monkeypatch):
     monkeypatch.setattr(live_timeline, "_AGE", 3600.0)
     opened, estimates = fake_opened(without_truth()), Estimates()
     surveys, complete = Surveys(estimates), threading.Event()
-    live = LiveTimeline(estimates, surveys)
+    live = followed(estimates, surveys)
     assert live.of(opened, Parameters()).moving == ()
     surveys.request(
         "me", opened, Parameters(), lambda survey: complete.set() if survey.complete else None

@@ -16,7 +16,7 @@ from estimator import Parameters
 from tests.app.drawn import shown_frame
 from tests.app.fake_recordings import FRAMES, PERIOD, SPEED, fake_recording
 from tests.app.fake_session import context
-from tests.app.page_calls import unpacked
+from tests.app.page_calls import frames_of, unpacked
 from tests.app.waiting import until
 
 
@@ -56,7 +56,8 @@ def test_it_knows_the_recording_once_a_session_begins(session, client):
     times, speeds = client.shown("timeline.open")
     np.testing.assert_allclose(unpacked(times), PERIOD * np.arange(FRAMES), rtol=1e-6)
     assert tuple(speeds) == SPEEDS
-    until(lambda: client.shown("timeline.events")[0]["moving"] == [[12, 19], [30, 33]])
+    moving = [*range(12, 20), *range(30, 34)]
+    until(lambda: frames_of(client.shown("timeline.events")[0]["moving"]) == moving)
     assert client.shown("timeline.quantity")[0]["chosen"] == "moving"
     assert client.shown("timeline.marks") == [[]]
     assert playback(client) == {

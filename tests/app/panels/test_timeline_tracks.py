@@ -17,7 +17,13 @@ from app.session.marks import Mark
 from estimator import METRIC_INFO, Parameters
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
 from tests.app.fake_session import context, snapshot
-from tests.app.page_calls import unpacked
+from tests.app.page_calls import frames_of, unpacked
+
+
+def shown_numbers(client):
+    """{frame: quantity and share of valid zones} that were sent last."""
+    frames, *rows = client.shown("timeline.numbers")
+    return dict(zip(frames_of(frames), zip(*map(unpacked, rows), strict=True), strict=True))
 
 
 def test_only_what_has_changed_is_sent(client):
@@ -35,7 +41,7 @@ def test_only_what_has_changed_is_sent(client):
     client.take_sent()
     panel.show(now)
     assert client.shown("timeline.frame") == [now.frame]
-    assert len(client.take_sent()) == 6
+    assert len(client.take_sent()) == 7
 
 
 def test_while_a_person_moves_the_playhead_it_is_left_alone(client):
@@ -64,7 +70,13 @@ def test_motion_gaps_and_empty_frames_have_the_colours_of_the_scene(client):
             }
         ]
         assert len(set(client.shown("timeline.colours")[0].values())) == 4
-    assert client.shown("timeline.events") == [{"moving": [[5, 9]], "gaps": [7], "empty": [[0, 1]]}]
+    [sent] = client.shown("timeline.events")
+    assert sent.pop("unread") == 0
+    assert {name: frames_of(text) for name, text in sent.items()} == {
+        "moving": [5, 6, 7, 8, 9],
+        "gaps": [7],
+        "empty": [0, 1],
+    }
 
 
 def test_the_quantity_is_what_the_survey_knows_of_it(client):
@@ -80,17 +92,32 @@ def test_the_quantity_is_what_the_survey_knows_of_it(client):
         ("coverage", 1.0, "", 1.0),
     ):
         panel.show(replace(now, settings=replace(now.settings, strip=name)))
-        about, values, zones = client.shown("timeline.quantity")
+        [about], numbers = client.shown("timeline.quantity"), shown_numbers(client)
         assert (about["chosen"], about["unit"]) == (name, unit)
         assert about["top"] >= top * 0.99
-        assert unpacked(values)[20] == pytest.approx(value, rel=1e-3)
-        assert np.flatnonzero(np.isfinite(unpacked(values))).tolist() == [20]
-        assert np.flatnonzero(np.isfinite(unpacked(zones))).tolist() == [12, 20]
+        assert [*numbers] == [12, 20]
+        assert numbers[20] == pytest.approx([value, 1.0], rel=1e-3)
+        assert np.isnan(numbers[12][0])
+        assert numbers[12][1] == 1.0
+
+
+def test_of_a_survey_that_goes_on_only_new_numbers_are_sent(client):
+    opened, parameters = fake_opened(), Parameters()
+    survey = Survey(opened.recording, parameters)
+    survey.put(20, Estimates().estimated(opened, 20, parameters))
+    panel = TimelinePanel(context(client))
+    panel.open(opened)
+    now = snapshot(opened=opened, survey=survey, survey_revision=1)
+    panel.show(now)
     client.take_sent()
     survey.put(21, Estimates().estimated(opened, 21, parameters))
     panel.show(replace(now, survey_revision=2))
-    values = unpacked(client.shown("timeline.quantity")[1])
-    assert np.flatnonzero(np.isfinite(values)).tolist() == [20, 21]
+    assert [*shown_numbers(client)] == [13, 21]
+    assert client.called("timeline.forget") == []
+    client.take_sent()
+    panel.show(replace(now, survey=None, survey_revision=3))
+    assert client.called("timeline.forget") == [[]]
+    assert client.called("timeline.numbers") == []
 
 
 def test_quantities_are_those_of_a_survey_and_errors_need_truth():
@@ -108,9 +135,8 @@ def test_an_error_that_was_drawn_is_not_of_a_recording_without_truth(client):
     panel, now = TimelinePanel(context(client)), snapshot(opened=fake_opened(recording))
     panel.open(now.opened)
     panel.show(replace(now, settings=replace(now.settings, strip="coverage")))
-    about, values, _ = client.shown("timeline.quantity")
-    assert about["chosen"] == "moving"
-    assert not np.isfinite(unpacked(values)).any()
+    assert client.shown("timeline.quantity")[0]["chosen"] == "moving"
+    assert client.shown("timeline.numbers") is None
 
 
 def test_a_recording_of_one_frame_has_a_timeline(client):
@@ -119,3 +145,17 @@ def test_a_recording_of_one_frame_has_a_timeline(client):
     panel.show(snapshot(opened=opened, frame=0, playback=Playback(0, 0)))
     assert unpacked(client.shown("timeline.open")[0]).tolist() == [0.0]
     assert client.shown("timeline.frame") == [0]
+
+
+def test_what_is_sent_of_an_hour_is_bounded_by_its_frames(client):
+    frames = 54_000
+    opened = fake_opened(fake_recording(frames=frames))
+    panel, now = TimelinePanel(context(client)), snapshot()
+    panel.open(opened)
+    every_other = tuple((k, k) for k in range(0, frames, 2))
+    events = Timeline(frames, (), every_other, every_other, unread=40)
+    panel.show(replace(now, opened=opened, timeline=events))
+    [sent] = client.shown("timeline.events")
+    assert frames_of(sent["moving"]) == [*range(0, frames, 2)]
+    assert sent["unread"] == 40
+    assert len(str(sent)) < 0.6 * frames

@@ -1,4 +1,6 @@
 import gc
+import subprocess
+import sys
 import threading
 import time
 import weakref
@@ -46,3 +48,24 @@ def test_nothing_is_left_to_do_after_closing(monkeypatch):
     memory.close()
     time.sleep(0.3)
     assert calls == []
+
+
+def test_threads_share_two_heaps():
+    fill = "[threading.Thread(target=lambda: kept.append([bytearray(600) for _ in range(50)]))"
+    script = f"""
+import threading, time
+from pathlib import Path
+from app.server.memory_release import keep_together
+keep_together()
+kept = []
+threads = {fill} for _ in range(8)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+import ctypes
+ctypes.CDLL(None).malloc_info(0, ctypes.c_void_p.in_dll(ctypes.CDLL(None), "stdout"))
+ctypes.CDLL(None).fflush(None)
+"""
+    told = subprocess.run(
+        [sys.executable, "-c", script], check=True, capture_output=True, text=True
+    )
+    assert 1 <= told.stdout.count("<heap nr=") <= 2, told.stderr
