@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from estimator.icp import Registration
 from estimator.icp import align as align_with_open3d
+from estimator.libraries import scikit_learn_hdbscan
 
 Labels = Callable[[NDArray[np.float64], int, int | None, bool], NDArray[np.int64]]
 """From points (N, 3) in metres, min_cluster_size, min_samples and allow_single_cluster to labels
@@ -43,16 +44,13 @@ def _scikit_learn_labels(
     min_samples: int | None,
     allow_single_cluster: bool,
 ) -> NDArray[np.int64]:
-    # scikit-learn takes a second to import, and the command line's help does not need it.
-    from sklearn.cluster import HDBSCAN
-
-    labels = HDBSCAN(
+    hdbscan = scikit_learn_hdbscan()(
         min_cluster_size=min_cluster_size,
         min_samples=min_samples,
         allow_single_cluster=allow_single_cluster,
-        copy=True,  # pyright: ignore[reportArgumentType] (inferred from a default of "warn")
-    ).fit_predict(points)
-    return labels.astype(np.int64)
+        copy=True,
+    )
+    return hdbscan.fit_predict(points).astype(np.int64)
 
 
 def _compiled_labels(

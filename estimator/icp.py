@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from estimator.flow import Indices
+from estimator.libraries import open3d
 
 
 @dataclass(frozen=True)
@@ -42,10 +43,7 @@ def align(
         target: (M, 3) metres, M > 0.
         max_correspondence_distance: metres.
     """
-    # Open3D takes a second to import, and the command line's help does not need it.
-    import open3d as o3d
-
-    result = o3d.pipelines.registration.registration_icp(
+    result = open3d().pipelines.registration.registration_icp(
         _point_cloud(source),
         _point_cloud(target),
         max_correspondence_distance,
@@ -73,9 +71,7 @@ def _settings() -> tuple[Any, Any]:
 
     They are given explicitly since fitness depends on where ICP stops.
     """
-    import open3d as o3d
-
-    registration = o3d.pipelines.registration
+    registration = open3d().pipelines.registration
     criteria = registration.ICPConvergenceCriteria(
         relative_fitness=1e-6, relative_rmse=1e-6, max_iteration=30
     )
@@ -83,6 +79,5 @@ def _settings() -> tuple[Any, Any]:
 
 
 def _point_cloud(points: NDArray[np.float64]) -> Any:  # noqa: ANN401 (Open3D has no types)
-    import open3d as o3d
-
+    o3d = open3d()
     return o3d.geometry.PointCloud(o3d.utility.Vector3dVector(points))

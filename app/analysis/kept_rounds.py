@@ -18,8 +18,8 @@ from estimator.point_errors import ERRORS, lengths, point_errors, sums_of_groups
 from estimator.rounds import displaced
 from recordings import Recording
 
-MOST = 4096
-"""Pairs of which rounds are kept, some 8 kB each."""
+MOST = 2048
+"""Pairs of which rounds are kept, some 10 kB each."""
 
 
 def without_thresholds(parameters: Parameters) -> Parameters | None:
@@ -66,6 +66,9 @@ class KeptRounds:
         self._facts = Survey(recording, parameters)
         self._pairs: dict[int, _Kept] = {}
         self._joined: tuple[NDArray[np.intp], _Kept] | None = None
+
+    def __len__(self) -> int:
+        return len(self._facts)
 
     def wants(self, k: int) -> bool:
         """Whether the rounds of a frame's pair are missing, and there is room for them."""

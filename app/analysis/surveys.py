@@ -21,7 +21,7 @@ from estimator import Parameters, current_engine
 
 _CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
 _AT_ONCE = 4 * _CORES  # pairs between two looks for foreground work, while there is none
-_MOST_FRAMES = 2**18  # of all cached surveys together, some 300 bytes each
+_MOST_FRAMES = 2**17  # of all cached surveys together, some 350 bytes each
 _SHORT = 1000  # frames up to which what is known is filled in while a person waits
 _BLOCK = 32  # pairs whose rounds are kept together, while the estimates' caches hold them
 _KEPT = 4  # recordings, or settings of one, whose rounds are kept
@@ -73,7 +73,7 @@ class Surveys:
     def __init__(self, estimates: Estimates, size: int = 16) -> None:
         self._estimates = estimates
         self._surveys: Cache[tuple, Survey] = Cache(size, len, _MOST_FRAMES)
-        self._kept: Cache[tuple, KeptRounds] = Cache(_KEPT)
+        self._kept: Cache[tuple, KeptRounds] = Cache(_KEPT, len, _MOST_FRAMES)
         self._changed = threading.Condition()
         self._requests: dict[Hashable, _Request] = {}
         self._thread: threading.Thread | None = None
@@ -163,7 +163,7 @@ class Surveys:
         """Fill in what is known without an estimate."""
         request.filled = True
         survey, opened, parameters = request.survey, request.opened, request.parameters
-        if kept := self._kept_rounds(opened, parameters):
+        if (kept := self._kept_rounds(opened, parameters)) is not None:
             kept.fill(survey)
         for known in self._estimates.cached(opened, parameters):
             if not survey.done[known.frame]:  # already computed by playing or scrubbing

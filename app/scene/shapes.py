@@ -11,6 +11,7 @@ import trimesh
 from numpy.typing import NDArray
 
 from app.scene.kept_shapes import Part, keep_parts, kept_parts
+from estimator.libraries import open3d
 from robot_assets import Robot
 
 _DARKEST = 84  # lowest channel value: darker meshes are invisible on a dark background
@@ -138,8 +139,7 @@ def _coarsened(piece: trimesh.Trimesh) -> trimesh.Trimesh:
     """
     if len(piece.faces) <= _COARSE:
         return piece
-    import open3d as o3d
-
+    o3d = open3d()
     mesh = o3d.geometry.TriangleMesh(
         o3d.utility.Vector3dVector(piece.vertices), o3d.utility.Vector3iVector(piece.faces)
     )

@@ -237,3 +237,13 @@ def test_a_recording_that_was_closed_leaves_no_gap_behind():
     surveys.request("me", fake_opened(), Parameters(), again)
     until(lambda: again.complete)
     assert (again.told[-1][1].moving[8:] == 100).all()
+
+
+def test_surveys_of_long_recordings_are_fewer(monkeypatch):
+    monkeypatch.setattr("app.analysis.surveys._MOST_FRAMES", 2 * FRAMES)
+    surveys, opened = Surveys(Estimates()), fake_opened()
+    for n in (5, 6, 7):
+        surveys.request("me", opened, Parameters(n=n), lambda _: None)
+    surveys.cancel("me")
+    known = [n for n in (5, 6, 7) if surveys.known(opened, Parameters(n=n)) is not None]
+    assert known == [6, 7]
