@@ -71,7 +71,6 @@ class Recording:
 
     def __init__(self, parts: Parts) -> None:
         self._parts = parts
-        self._self_filter = SelfFilter(parts.robot.robot) if parts.robot else None
         self.path: Path = parts.file.path
         self.name = parts.file.path.stem
         self.stamps = parts.frames.stamps.astype(np.float64) * 1e-9
@@ -86,6 +85,8 @@ class Recording:
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
         # The point in the optical frame is the reading times its ray.
         self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
+        robot = self.robot
+        self._self_filter = SelfFilter(robot, self._rays) if robot else None
         with np.errstate(over="ignore", invalid="ignore"):  # intrinsics may be any numbers
             lengths = np.linalg.norm(self._rays, axis=-1, keepdims=True)
             self._directions = read_only(self._rays / lengths)
@@ -254,7 +255,7 @@ class Recording:
         link_poses = parts.robot.link_poses(k) if parts.robot else {}
         if self._self_filter and link_poses:
             valid = np.where(visible, values, np.nan)
-            visible &= ~self._self_filter.shows_robot(valid, self._rays, T_fixed_sensor, link_poses)
+            visible &= ~self._self_filter.shows_robot(valid, T_fixed_sensor, link_poses)
         return Reading(
             stamp=float(self.stamps[k]),
             directions=self._directions,
