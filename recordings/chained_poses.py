@@ -40,7 +40,7 @@ class ChainedPoses:
         ]
 
     def at(self, k: int) -> NDArray[np.float64]:
-        """T_above_frame (F, 4, 4) of each frame at frame `k` of the recording, NaN where unknown."""
+        """T_above_frame (F, 4, 4) of all at frame `k` of the recording, NaN where unknown."""
         poses = np.empty((len(self._frames), 4, 4))
         for i in self._others:
             poses[i] = self._tree.transform(self._above, self._frames[i], k)

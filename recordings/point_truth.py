@@ -21,7 +21,7 @@ from recordings.twists import Twist, fitted_twist
 
 _REAL = ("x", "y", "z", "vx", "vy", "vz")
 _NEAREST = 0.2  # metres: noise of a few percent of some metres, well below the size of an object
-_CACHED_FRAMES, _CACHED_OBJECTS = 64, 256
+_CACHED_FRAMES, _CACHED_OBJECTS, _CACHED_STEPS = 64, 256, 1024
 
 
 class _FrameTruth:
@@ -31,15 +31,23 @@ class _FrameTruth:
         self.table = table
         self.points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
         self.velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
-        self._twists: dict[int, Twist] = {}
+        self._twists: dict[int, Twist | None] = {}
+
+    def at(self, row: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Velocity (N, 3) and object (N,) of rows of the table, NaN and -1 for row -1."""
+        known = row >= 0
+        values = np.full((len(row), 3), np.nan)
+        objects = np.full(len(row), -1, dtype=np.int64)
+        values[known] = self.velocity[row[known]]
+        objects[known] = self.table["object"][row[known]]
+        return values, objects
 
     def twist(self, number: int) -> Twist | None:
         """Twist of an object, None where it has no points."""
         if number not in self._twists:
             mine = self.table["object"] == number
-            if not mine.any():
-                return None
-            self._twists[number] = fitted_twist(self.points[mine], self.velocity[mine])
+            found = fitted_twist(self.points[mine], self.velocity[mine]) if mine.any() else None
+            self._twists[number] = found
         return self._twists[number]
 
 
@@ -68,6 +76,7 @@ class PointTruths:
         self._message = _nearest(decoder.header_stamps(topic.channel), stamps, tolerance)
         self._seconds = (stamps - stamps[0]) * 1e-9
         self._frame = lru_cache(maxsize=_CACHED_FRAMES)(self._read)
+        self._step = lru_cache(maxsize=_CACHED_STEPS)(self._step_of)
 
     def at(self, k: int, cloud: Cloud) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
         """Velocity (N, 3) m/s and object (N,) of each point of a frame's cloud.
@@ -75,15 +84,7 @@ class PointTruths:
         Velocities are NaN and objects -1 for points without truth; None for frames without.
         """
         frame = self._frame(k)
-        if frame is None:
-            return None
-        row = _rows(frame.table, cloud)
-        known = row >= 0
-        values = np.full((len(row), 3), np.nan)
-        objects = np.full(len(row), -1, dtype=np.int64)
-        values[known] = frame.velocity[row[known]]
-        objects[known] = frame.table["object"][row[known]]
-        return values, objects
+        return None if frame is None else frame.at(_rows(frame.table, cloud))
 
     def over(self, source_k: int, target_k: int, cloud: Cloud) -> NDArray[np.float64] | None:
         """Mean velocity (N, 3) m/s of each point of the source cloud until the target frame.
@@ -94,11 +95,10 @@ class PointTruths:
         A point's deviation from the twist at the source frame is kept throughout.
         """
         frame = self._frame(source_k)
-        start = self.at(source_k, cloud)
-        if frame is None or start is None:
+        if frame is None:
             return None
         row = _rows(frame.table, cloud)
-        velocity, objects = start
+        velocity, objects = frame.at(row)
         seconds = self._seconds[target_k] - self._seconds[source_k]
         for number in np.unique(objects[objects >= 0]).tolist():
             mine = objects == number
@@ -125,17 +125,26 @@ class PointTruths:
 
     def _integrated(self, number: int, source_k: int, target_k: int) -> Transform:
         """Motion (4, 4) by the twists of the frames in which the object is seen."""
-        seen = [
-            (float(self._seconds[k]), twist)
-            for k in range(source_k, target_k + 1)
-            if (frame := self._frame(k)) and (twist := frame.twist(number))
-        ]
-        # The last twist holds until the target frame.
-        seen.append((float(self._seconds[target_k]), seen[-1][1]))
+        seen = [k for k in range(source_k, target_k + 1) if self._twist(number, k)]
         motion = np.eye(4)
-        for (before, first), (after, second) in pairwise(seen):
-            motion = first.mean_with(second).motion(after - before) @ motion
+        for before, after in pairwise(seen):
+            motion = self._step(number, before, after) @ motion
+        if seen[-1] < target_k:  # the last twist holds until the target frame
+            last = self._twist(number, seen[-1])
+            assert last is not None
+            motion = last.motion(self._seconds[target_k] - self._seconds[seen[-1]]) @ motion
         return motion
+
+    def _step_of(self, number: int, before: int, after: int) -> Transform:
+        """Motion (4, 4) of an object between two frames in which it is seen."""
+        first, second = self._twist(number, before), self._twist(number, after)
+        assert first is not None and second is not None
+        return first.mean_with(second).motion(self._seconds[after] - self._seconds[before])
+
+    def _twist(self, number: int, k: int) -> Twist | None:
+        """Twist of an object at a frame, None where it is not seen."""
+        frame = self._frame(k)
+        return frame.twist(number) if frame else None
 
     def _read(self, k: int) -> _FrameTruth | None:
         index = int(self._message[k])

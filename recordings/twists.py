@@ -49,7 +49,7 @@ def fitted_twist(points: NDArray[np.float64], velocity: NDArray[np.float64]) -> 
     """
     known = np.isfinite(points).all(axis=1) & np.isfinite(velocity).all(axis=1)
     points, velocity = points[known], velocity[known]
-    if len(points) == 0:
+    if not velocity.any():  # at rest, or without points
         return Twist(np.zeros(3), np.zeros(3))
     middle, mean = points.mean(axis=0), velocity.mean(axis=0)
     angular = np.zeros(3)

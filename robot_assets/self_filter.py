@@ -27,9 +27,7 @@ class SelfFilter:
         margin: readings up to this far in front of the body count as the body, metres.
     """
 
-    def __init__(
-        self, robot: Robot, directions: NDArray[np.float64], margin: float = 0.03
-    ) -> None:
+    def __init__(self, robot: Robot, directions: NDArray[np.float64], margin: float = 0.03) -> None:
         self._bodies = {
             link: LinkBody(mesh)
             for link, mesh in robot.collision_meshes.items()
