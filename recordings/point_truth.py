@@ -144,7 +144,8 @@ class PointTruths:
     def _step_of(self, number: int, before: int, after: int) -> Transform:
         """Motion (4, 4) of an object between two frames in which it is seen."""
         first, second = self._twist(number, before), self._twist(number, after)
-        assert first is not None and second is not None
+        assert first is not None
+        assert second is not None
         return first.mean_with(second).motion(self._seconds[after] - self._seconds[before])
 
     def _twist(self, number: int, k: int) -> Twist | None:

@@ -6,7 +6,7 @@ import pytest
 
 from recordings import RecordedSensor, RecordingError
 from recordings.depth_images import pixels
-from recordings.sensors import readings
+from recordings.sensors import distances, status_codes, valid
 from robot_assets import SensorModel
 
 SENSOR = RecordedSensor(
@@ -26,6 +26,16 @@ def picture(values: np.ndarray, encoding: str, **more: object) -> SimpleNamespac
         "data": np.frombuffer(values.tobytes(), np.uint8),
     }
     return SimpleNamespace(**(fields | more))
+
+
+def readings(
+    image: SimpleNamespace, status: SimpleNamespace | None, sensor: RecordedSensor
+) -> np.ndarray:
+    """Readings (rows, columns) of an image and of the status beside it, NaN where invalid."""
+    codes = np.full(sensor.grid, 255, np.uint8) if status is None else status_codes(status, sensor)
+    values, with_status = distances(image, sensor), np.array([status is not None])
+    good = valid(values[None], codes[None], with_status, np.array([sensor.limits]))[0]
+    return np.where(good, values, np.nan)
 
 
 def test_16_bits_are_millimetres_with_0_for_invalid():
