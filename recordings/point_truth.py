@@ -12,6 +12,7 @@ from recordings.cloud import Cloud
 from recordings.contents import TRUTH_FIELDS, Topic
 from recordings.decoding import Decoder
 from recordings.errors import MisfitError
+from recordings.floats import as_doubles
 from recordings.nearby import Column
 from recordings.point_clouds import fields_of
 from recordings.tracks import FARTHEST, Stamps
@@ -24,29 +25,27 @@ _CACHED_FRAMES, _CACHED_OBJECTS, _CACHED_STEPS = 64, 256, 1024
 
 
 class _FrameTruth:
-    """Truth at one frame: its table, and positions and velocities (N, 3) of it."""
+    """Truth at one frame: its table, and positions (N, 3) of it."""
 
     def __init__(self, table: dict[str, NDArray[Any]]) -> None:
         self.table = table
         self.points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
-        self.velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
+        # A further row, which is also row -1, is that of points without truth.
+        velocity = [np.append(table[axis], np.nan) for axis in ("vx", "vy", "vz")]
+        self._velocity, self._object = np.stack(velocity, axis=-1), np.append(table["object"], -1)
         self._twists: dict[int, Twist | None] = {}
 
     def at(self, row: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Velocity (N, 3) and object (N,) of rows of the table, NaN and -1 for row -1."""
-        known = row >= 0
-        values = np.full((len(row), 3), np.nan)
-        objects = np.full(len(row), -1, dtype=np.int64)
-        values[known] = self.velocity.take(row[known], axis=0)  # much faster than by brackets
-        objects[known] = self.table["object"][row[known]]
-        return values, objects
+        return self._velocity.take(row, axis=0), self._object.take(row)
 
     def twist(self, number: int) -> Twist | None:
         """Twist of an object, None where it has no points."""
         if number not in self._twists:
-            mine = self.table["object"] == number
-            found = fitted_twist(self.points[mine], self.velocity[mine]) if mine.any() else None
-            self._twists[number] = found
+            # Rows are taken by their numbers, which is four times as fast as by booleans.
+            mine = np.flatnonzero(self.table["object"] == number)
+            points, velocity = self.points.take(mine, axis=0), self._velocity.take(mine, axis=0)
+            self._twists[number] = fitted_twist(points, velocity) if len(mine) else None
         return self._twists[number]
 
 
@@ -126,7 +125,7 @@ class PointTruths:
 
     def _rests(self, number: int, source_k: int, target_k: int) -> bool:
         """Whether an object is at rest in all frames in which it is seen."""
-        twists = [self._twist(number, k) for k in range(source_k, target_k + 1)]
+        twists = (self._twist(number, k) for k in range(source_k, target_k + 1))
         return all(twist is None or twist.rests for twist in twists)
 
     def _integrated(self, number: int, source_k: int, target_k: int) -> Transform:
@@ -178,16 +177,12 @@ def truth_fields(cloud: Any) -> dict[str, NDArray[Any]]:  # noqa: ANN401 (sensor
     Raises:
         MisfitError: the cloud has too few bytes for its size, or fields that do not fit.
     """
-    fields = fields_of(cloud)
-    values = np.empty((len(fields), cloud.width * cloud.height))
-    with np.errstate(invalid="ignore"):  # signalling NaNs
-        for row, field in zip(values, fields.values(), strict=True):
-            row[:] = field
-    values[~(np.abs(values) <= FARTHEST)] = np.nan
-    return {
-        name: row if name in _REAL else np.where(np.isnan(row), -1.0, row).astype(np.int64)
-        for name, row in zip(fields, values, strict=True)
-    }
+    table: dict[str, NDArray[Any]] = {}
+    for name, field in fields_of(cloud).items():
+        values = as_doubles(field)
+        values[~(np.abs(values) <= FARTHEST)] = np.nan if name in _REAL else -1.0
+        table[name] = values if name in _REAL else values.astype(np.int64)
+    return table
 
 
 def _nearest(messages: Stamps, stamps: Stamps, tolerance: float) -> NDArray[np.int64]:
@@ -208,8 +203,8 @@ def _rows(table: dict[str, NDArray[Any]], cloud: Cloud) -> NDArray[np.int64]:
     if {"sensor", "zone"} <= set(table):
         rows = _rows_by_zone(table, cloud)
         known = rows >= 0
-        positions = np.stack([table[axis][rows[known]] for axis in ("x", "y", "z")])
-        distance = np.linalg.norm(positions - cloud.points[known].T, axis=0)
+        positions = np.stack([table[axis].take(rows[known]) for axis in ("x", "y", "z")])
+        distance = np.linalg.norm(positions - cloud.points.compress(known, axis=0).T, axis=0)
         # Other writers may number the sensors in another order; then the positions disagree.
         if len(distance) and np.median(distance) <= _NEAREST:
             return rows
