@@ -76,8 +76,8 @@ class RobotPoses:
         """{link: T_fixed_link (4, 4)} of all links whose pose is known at frame `k`."""
         in_tree, chained = self._chained
         found = chained.at(k)
-        finite = np.isfinite(found).all(axis=(1, 2)).tolist()
-        by_tree = {n: T for n, T, known in zip(in_tree, found, finite, strict=True) if known}
+        known = np.flatnonzero(np.isfinite(found).all(axis=(1, 2))).tolist()
+        by_tree = {in_tree[i]: found[i] for i in known}
         if len(by_tree) == len(self._frames):
             return by_tree
         T_base_links = self._by_joints(k)
