@@ -75,7 +75,7 @@ class RayCaster:
         """Index of the first triangle along each ray, -1 for none."""
         from trimesh.util import unitize
 
-        along = unitize(directions.astype(np.float32)).astype(np.float32)
+        along = np.asarray(unitize(directions.astype(np.float32)), dtype=np.float32)
         return np.asarray(self._scene.run(self._scaled(origins.astype(np.float32)), along))
 
     def _scaled(self, points: NDArray[Any]) -> NDArray[np.float32]:
