@@ -70,12 +70,12 @@ class Reading:
 
     def cloud(self, max_range: float) -> Cloud:
         """Cloud of the visible readings up to `max_range` metres along their rays."""
-        kept = self.visible & (self.distance <= max_range)
-        sensor, row, column = np.nonzero(kept)
+        kept = np.flatnonzero(self.visible & (self.distance <= max_range))
+        sensor, zone = np.divmod(kept, self.ranges[0].size)
         return Cloud(
-            points=read_only(self.points[kept]),
+            points=read_only(self.points.reshape(-1, 3).take(kept, axis=0)),
             sensor=read_only(sensor),
-            zone=read_only(row * self.ranges.shape[2] + column),
+            zone=read_only(zone),
             directions=self.directions,
             ranges=self.ranges,
             T_fixed_sensor=self.T_fixed_sensor,

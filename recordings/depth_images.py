@@ -46,10 +46,9 @@ def pixels(image: Any, kind: np.dtype[Any]) -> NDArray[Any]:  # noqa: ANN401
             f"it has {len(image.data)} bytes in rows of {image.step}, too few for {columns} x "
             f"{rows} zones in {image.encoding}"
         )
-    order = ">" if image.is_bigendian else "<"
-    data = np.frombuffer(bytes(image.data), dtype=np.uint8)
-    lines = [data[r * image.step : r * image.step + columns * kind.itemsize] for r in range(rows)]
-    return np.stack(lines).view(kind.newbyteorder(order)).astype(kind)
+    stored = kind.newbyteorder(">" if image.is_bigendian else "<")
+    strides = (image.step, kind.itemsize)
+    return np.ndarray((rows, columns), stored, bytes(image.data), strides=strides).astype(kind)
 
 
 DEPTH_IMAGE = RangeFormat("sensor_msgs/Image", depth_grid, depth_ranges)

@@ -9,10 +9,10 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from recordings.cloud import NO_STATUS, Cloud, Reading, read_only
+from recordings.cloud import Cloud, Reading, read_only
 from recordings.decoding import Decoder
-from recordings.errors import MisfitError
 from recordings.frame import Provenance
+from recordings.frame_readings import FrameReadings
 from recordings.frame_table import FrameTable
 from recordings.grids import common_grid, padded
 from recordings.mcap_file import McapFile
@@ -20,7 +20,7 @@ from recordings.object_meshes import ObjectMesh, TrueObjects
 from recordings.point_truth import PointTruths
 from recordings.robot_poses import RobotPoses
 from recordings.sensor_poses import SensorPoses
-from recordings.sensors import DepthStream, RecordedSensor, readings, status_codes
+from recordings.sensors import DepthStream, RecordedSensor
 from recordings.truth import ObjectTruth, PairTruth, RigidTruth
 from robot_assets import Rig, Robot, SelfFilter, Transform
 from robot_assets.printable import printable
@@ -71,7 +71,6 @@ class Recording:
 
     def __init__(self, parts: Parts) -> None:
         self._parts = parts
-        self._self_filter = SelfFilter(parts.robot.robot) if parts.robot else None
         self.path: Path = parts.file.path
         self.name = parts.file.path.stem
         self.stamps = parts.frames.stamps.astype(np.float64) * 1e-9
@@ -84,8 +83,11 @@ class Recording:
         self.object_meshes: Mapping[str, ObjectMesh] = parts.objects.meshes
         self.duplicates = parts.frames.duplicates
         self._grid = common_grid([sensor.grid for sensor in self.sensors])
+        self._readings = FrameReadings(parts.streams, parts.decoder, self._grid)
         # The point in the optical frame is the reading times its ray.
         self._rays = np.stack([padded(s.directions, self._grid, np.nan) for s in self.sensors])
+        robot = self.robot
+        self._self_filter = SelfFilter(robot, self._rays) if robot else None
         with np.errstate(over="ignore", invalid="ignore"):  # intrinsics may be any numbers
             lengths = np.linalg.norm(self._rays, axis=-1, keepdims=True)
             self._directions = read_only(self._rays / lengths)
@@ -235,17 +237,7 @@ class Recording:
 
     def _read(self, k: int) -> Reading:
         parts = self._parts
-        values = np.full(self._rays.shape[:3], np.nan)
-        status = np.full(values.shape, NO_STATUS, dtype=np.uint8)
-        has_status = False
-        for s, stream in enumerate(parts.streams):
-            if (index := int(parts.frames.message[k, s])) < 0:
-                continue
-            distances, codes = self._readings_of(stream, index)
-            values[s] = padded(distances, self._grid, np.nan)
-            if codes is not None:
-                status[s] = padded(codes, self._grid, NO_STATUS)
-                has_status = True
+        values, status = self._readings.at(parts.frames.message[k])
         T_fixed_sensor = parts.sensor_poses.at(k)
         in_sensor = values[..., None] * self._rays
         R, t = T_fixed_sensor[:, :3, :3], T_fixed_sensor[:, :3, 3]
@@ -254,35 +246,14 @@ class Recording:
         link_poses = parts.robot.link_poses(k) if parts.robot else {}
         if self._self_filter and link_poses:
             valid = np.where(visible, values, np.nan)
-            visible &= ~self._self_filter.shows_robot(valid, self._rays, T_fixed_sensor, link_poses)
+            visible &= ~self._self_filter.shows_robot(valid, T_fixed_sensor, link_poses)
         return Reading(
             stamp=float(self.stamps[k]),
             directions=self._directions,
             ranges=read_only(np.ascontiguousarray(in_sensor[..., 2])),
-            status=read_only(status) if has_status else None,
+            status=None if status is None else read_only(status),
             T_fixed_sensor=read_only(T_fixed_sensor),
             points=read_only(points),
             distance=read_only(np.linalg.norm(in_sensor, axis=-1)),
             visible=read_only(visible),
         )
-
-    def _readings_of(
-        self, stream: DepthStream, index: int
-    ) -> tuple[NDArray[np.float64], NDArray[np.uint8] | None]:
-        """Readings of a sensor in metres, and their status, None without."""
-        decoder = self._parts.decoder
-        nothing = np.full(stream.sensor.grid, np.nan)
-        if (image := decoder.readable(stream.topic.channel, index)) is None:
-            return nothing, None
-        status = None
-        if stream.status and (row := stream.status_index[index]) >= 0:
-            status = decoder.readable(stream.status.channel, int(row))
-            if status is None:
-                return nothing, None  # ranges may be valid or not
-        try:
-            codes = status_codes(status, stream.sensor) if status is not None else None
-            return readings(image, status, stream.sensor, stream.form), codes
-        except MisfitError as error:
-            # One bad image does not cost the frame; only this sensor is left out.
-            decoder.leave_out(stream.topic.channel, index, str(error))
-            return nothing, None

@@ -1,11 +1,12 @@
 """Poses of the robot's links at the frames of a recording."""
 
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from recordings.chained_poses import ChainedPoses
 from recordings.nearby import Column, known_at
 from recordings.transforms import Transform, TransformTree, inverse
 from robot_assets import Robot
@@ -73,17 +74,24 @@ class RobotPoses:
 
     def _link_poses(self, k: int) -> dict[str, Transform]:
         """{link: T_fixed_link (4, 4)} of all links whose pose is known at frame `k`."""
-        poses: dict[str, Transform] = {}
+        in_tree, chained = self._chained
+        found = chained.at(k)
+        known = np.flatnonzero(np.isfinite(found).all(axis=(1, 2))).tolist()
+        by_tree = {in_tree[i]: found[i] for i in known}
+        if len(by_tree) == len(self._frames):
+            return by_tree
         T_base_links = self._by_joints(k)
         T_fixed_base = self._base_pose(k, T_base_links)
-        if np.isfinite(T_fixed_base).all():
-            poses = {link: T_fixed_base @ T for link, T in T_base_links.items()}
-        for link, frame in self._frames.items():
-            if frame in self._tree.frames:
-                T_fixed_link = self._tree.transform(self._fixed_frame, frame, k)
-                if np.isfinite(T_fixed_link).all():
-                    poses[link] = T_fixed_link
-        return poses
+        if not np.isfinite(T_fixed_base).all():
+            return by_tree
+        return {link: T_fixed_base @ T for link, T in T_base_links.items()} | by_tree
+
+    @cached_property
+    def _chained(self) -> tuple[list[str], ChainedPoses]:
+        """Links whose frames are in /tf, and their poses."""
+        links = [link for link, frame in self._frames.items() if frame in self._tree.frames]
+        frames = [self._frames[link] for link in links]
+        return links, ChainedPoses(self._tree, self._fixed_frame, frames)
 
     def _by_joints(self, k: int) -> dict[str, Transform]:
         """{link: T_base_link (4, 4)} of the links whose pose is known by the joints."""

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from recordings.chained_poses import ChainedPoses
 from recordings.cloud import read_only
 from recordings.robot_poses import RobotPoses
 from recordings.transforms import TransformTree
@@ -43,6 +44,7 @@ class SensorPoses:
             None if tree.connected(fixed_frame, frame) else sensor
             for frame, sensor in zip(frames, rig_sensors, strict=True)
         ]
+        self._chained = ChainedPoses(tree, fixed_frame, frames)
         self._robot = robot
         self._count = count
 
@@ -61,10 +63,9 @@ class SensorPoses:
 
     def at(self, k: int) -> NDArray[np.float64]:
         """T_fixed_sensor (S, 4, 4) at frame `k`, NaN where unknown."""
-        poses = np.full((len(self._frames), 4, 4), np.nan)
-        for s, (frame, sensor) in enumerate(zip(self._frames, self._by_rig, strict=True)):
-            if sensor is None:
-                poses[s] = self._tree.transform(self._fixed_frame, frame, k)
-            elif self._robot and sensor.link in (links := self._robot.link_poses(k)):
+        poses = self._chained.at(k)
+        links = self._robot.link_poses(k) if self._robot and any(self._by_rig) else {}
+        for s, sensor in enumerate(self._by_rig):
+            if sensor and sensor.link in links:
                 poses[s] = links[sensor.link] @ sensor.T_link_sensor
         return poses

@@ -22,6 +22,7 @@ from robot_assets import Sensor as RigSensor
 # ST's target status: 5 is valid, 9 valid with a large pulse (UM2884); with any other the reading is
 # no distance, however plausible.
 VALID_STATUS = (5, 9)
+_IS_VALID = np.isin(np.arange(256), VALID_STATUS)
 MOST_SENSORS = 1024
 """Sensors of a recording; one with more is refused, as with more zones."""
 MOST_ZONES = 2**18
@@ -159,36 +160,48 @@ def _grid(topic: Topic) -> Grid:
     return topic.grid
 
 
-def readings(
+def distances(
     message: Any,  # noqa: ANN401 (a decoded message)
-    status: Any | None,  # noqa: ANN401
     sensor: RecordedSensor,
     form: RangeFormat = DEPTH_IMAGE,
 ) -> NDArray[np.float64]:
-    """Readings (rows, columns) in metres of a message with ranges, NaN where invalid.
+    """Distances (rows, columns) in metres of a message with ranges, `valid` or not.
 
     Args:
         message: of the format's type; its size may differ from that of the topic's first message.
-        status: sensor_msgs/Image with ST's target status of the same reading, None without.
         sensor: of the message.
         form: of the message.
 
     Raises:
-        MisfitError: a message has another size or encoding, or too few bytes.
+        MisfitError: the message has another size or encoding, or too few bytes.
     """
     grid, found = sensor.images or sensor.grid, form.grid(message)
     if found != grid:
         held = found if isinstance(found, str) else f"it is {size_text(found)}"
         raise MisfitError(f"{held}, and not {size_text(grid)} distances")
-    values = form.ranges(message)
-    with np.errstate(invalid="ignore"):
-        valid = np.isfinite(values) & (values > 0)
-    if status is not None:
-        valid &= np.isin(_status_pixels(status, sensor), VALID_STATUS)
-    values = sensor.arrange(np.where(valid, values, np.nan))
-    low, high = sensor.limits
-    with np.errstate(invalid="ignore"):
-        return np.where((values >= low) & (values <= high), values, np.nan)
+    return sensor.arrange(form.ranges(message))
+
+
+def valid(
+    values: NDArray[np.float64],
+    status: NDArray[np.uint8],
+    with_status: NDArray[np.bool_],
+    limits: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """Find the distances of several sensors that are readings.
+
+    Args:
+        values: (S, R, C) metres.
+        status: (S, R, C) ST's target status.
+        with_status: (S,) whether a sensor's status is known.
+        limits: (S, 2) smallest and largest valid reading of each sensor, metres.
+
+    Returns:
+        (S, R, C).
+    """
+    low, high = limits.T[:, :, None, None]
+    good = np.isfinite(values) & (values > 0) & (values >= low) & (values <= high)
+    return good & (_IS_VALID[status] | ~with_status[:, None, None])
 
 
 def status_codes(status: Any, sensor: RecordedSensor) -> NDArray[np.uint8]:  # noqa: ANN401

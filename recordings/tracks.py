@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,9 +134,8 @@ class VectorTrack:
 
         The first and the last sample hold for one more sampling period; NaN further outside.
         """
-        times, apart = _times(self.stamps)
-        wanted = (stamps - self.stamps[0]) * 1e-9
-        values = _linear(wanted, times, self.values[apart])
+        times, samples, _ = self._samples
+        values = _linear((stamps - self.stamps[0]) * 1e-9, times, samples)
         values[~self.covers(stamps)] = np.nan
         return values
 
@@ -145,8 +145,8 @@ class VectorTrack:
 
     def covers(self, stamps: Stamps) -> NDArray[np.bool_]:
         """(K,) where `at` knows the values."""
-        times, _ = _times(self.stamps)
-        wanted, margin = (stamps - self.stamps[0]) * 1e-9, _margin(times)
+        times, _, margin = self._samples
+        wanted = (stamps - self.stamps[0]) * 1e-9
         return (wanted >= -margin) & (wanted <= times[-1] + margin)
 
     def mean(self, start: int, end: int) -> NDArray[np.float64]:
@@ -155,6 +155,12 @@ class VectorTrack:
         stamps = np.concatenate([[start], inside, [end]])
         times = (stamps - start) * 1e-9
         return np.trapezoid(self.at(stamps), times, axis=0) / times[-1]
+
+    @cached_property
+    def _samples(self) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+        """Seconds (M,) from the first stamp, values (M, D), and the sampling period in seconds."""
+        times, apart = _times(self.stamps)
+        return times, self.values[apart], _margin(times)
 
 
 class VectorsAtFrames:

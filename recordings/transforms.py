@@ -78,6 +78,18 @@ class TransformTree:
         """T_a_b (4, 4) at frame `k`, NaN where it is unknown or the frames are not connected."""
         return self._relative(a, b, k)
 
+    def pose(self, frame: str, k: int) -> Transform:
+        """Pose (4, 4) of a frame in its parent at frame `k` of the recording, NaN where unknown."""
+        return self._pose(frame, k)
+
+    def chain_up(self, frame: str, ancestor: str, most: int) -> list[str] | None:
+        """Frames from one up to below an ancestor; None where it is none, or there are more."""
+        if not self.connected(ancestor, frame) or self._common(ancestor, frame) != ancestor:
+            return None
+        if self._depth.get(frame, 0) - self._depth.get(ancestor, 0) > most:
+            return None
+        return list(self._frames_up(frame, ancestor))
+
     def over(self, a: str, b: str, frames: int) -> Transform:
         """T_a_b (K, 4, 4) at the first `frames` frames, NaN where unknown."""
         poses = self._relative(a, b, None)

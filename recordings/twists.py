@@ -1,6 +1,7 @@
 """Twists: fitted to the velocities of points, and integrated over time."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,11 @@ class Twist:
 
     angular: NDArray[np.float64]
     linear: NDArray[np.float64]
+
+    @cached_property
+    def rests(self) -> bool:
+        """Whether it is zero."""
+        return not (self.angular.any() or self.linear.any())
 
     def velocity(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Velocity (N, 3) m/s of points (N, 3) metres."""
@@ -47,6 +53,8 @@ def fitted_twist(points: NDArray[np.float64], velocity: NDArray[np.float64]) -> 
 
     Rotations that are not observable, with few points or points in a line, are set to zero.
     """
+    if not velocity.any():
+        return Twist(np.zeros(3), np.zeros(3))
     known = np.isfinite(points).all(axis=1) & np.isfinite(velocity).all(axis=1)
     points, velocity = points[known], velocity[known]
     if len(points) == 0:

@@ -7,7 +7,7 @@ import pytest
 
 from recordings import Cloud, RecordingError
 from recordings.point_clouds import fields_of
-from recordings.point_truth import _rows, truth_fields
+from recordings.point_truth import _FrameTruth, _rows, truth_fields
 
 
 def message(rows: np.ndarray, **more: object) -> SimpleNamespace:
@@ -119,6 +119,17 @@ def test_rows_that_lie_nowhere_belong_to_no_point():
     table = table_of(np.array([[np.nan, 0, 0], [1.0, 0, 1]]))
     assert _rows(table, cloud_of(POINTS, [0, 0, 0], [0, 1, 2])).tolist() == [-1, 1, -1]
     assert _rows(table_of(np.full((2, 3), np.nan)), cloud_of(POINTS, [0] * 3, [0] * 3)).max() == -1
+
+
+def test_points_without_a_row_have_no_velocity_even_where_there_are_no_rows():
+    truth = {name: np.array([7.0, 8.0]) for name in ("x", "y", "z", "vx", "vy", "vz")}
+    velocity, objects = _FrameTruth(truth | {"object": np.array([0, 3])}).at(np.array([1, -1, 0]))
+    np.testing.assert_array_equal(velocity[:, 0], [8.0, np.nan, 7.0])
+    assert objects.tolist() == [3, -1, 0]
+    nothing = {name: values[:0] for name, values in (truth | {"object": np.array([0])}).items()}
+    velocity, objects = _FrameTruth(nothing).at(np.array([-1, -1]))
+    assert np.isnan(velocity).all()
+    assert objects.tolist() == [-1, -1]
 
 
 def test_rows_of_an_organised_cloud_may_be_padded():

@@ -6,8 +6,9 @@ import pytest
 
 from recordings import RecordedSensor, RecordingError
 from recordings.depth_images import pixels
-from recordings.sensors import readings
+from recordings.sensors import distances, status_codes, valid
 from robot_assets import SensorModel
+from tests.recordings.pictures import picture
 
 SENSOR = RecordedSensor(
     "eye", "", "eye", SensorModel().directions, lambda values: values, (0.0, np.inf)
@@ -15,17 +16,14 @@ SENSOR = RecordedSensor(
 COUNTING = np.arange(64).reshape(8, 8)
 
 
-def picture(values: np.ndarray, encoding: str, **more: object) -> SimpleNamespace:
-    fields = {
-        "header": SimpleNamespace(frame_id="eye"),
-        "height": 8,
-        "width": 8,
-        "encoding": encoding,
-        "is_bigendian": values.dtype.byteorder == ">",
-        "step": 8 * values.dtype.itemsize,
-        "data": np.frombuffer(values.tobytes(), np.uint8),
-    }
-    return SimpleNamespace(**(fields | more))
+def readings(
+    image: SimpleNamespace, status: SimpleNamespace | None, sensor: RecordedSensor
+) -> np.ndarray:
+    """Readings (rows, columns) of an image and of the status beside it, NaN where invalid."""
+    codes = np.full(sensor.grid, 255, np.uint8) if status is None else status_codes(status, sensor)
+    values, with_status = distances(image, sensor), np.array([status is not None])
+    good = valid(values[None], codes[None], with_status, np.array([sensor.limits]))[0]
+    return np.where(good, values, np.nan)
 
 
 def test_16_bits_are_millimetres_with_0_for_invalid():
@@ -48,7 +46,7 @@ def test_big_endian_and_padded_rows_are_read():
     assert readings(big, None, SENSOR)[7, 7] == pytest.approx(0.063)
     padded = np.zeros((8, 12), "<u2")
     padded[:, :8] = COUNTING
-    image = picture(padded, "16UC1", step=24)
+    image = picture(padded, "16UC1", width=8)
     assert readings(image, None, SENSOR)[7, 7] == pytest.approx(0.063)
 
 

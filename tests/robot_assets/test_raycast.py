@@ -128,3 +128,9 @@ def test_the_rays_are_left_as_they_were():
     BOX.cast(origins, directions)
     assert origins.tolist() == [[-5.0, 0.1, 0.1]]
     assert directions.tolist() == [[1.0, 0.0, 0.0]]
+
+
+def test_thousands_of_meshes_in_a_process():
+    mesh, origin, direction = plane(0.0, 1), np.array([[0.0, 0.0, 2.0]]), np.array([[0.0, 0, -1]])
+    casters = [RayCaster(mesh) for _ in range(1500)]
+    assert all(caster.cast(origin, direction)[0] == pytest.approx(2.0) for caster in casters)

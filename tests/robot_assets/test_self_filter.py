@@ -20,7 +20,7 @@ def shows(robot: Robot, depth: float, model: SensorModel = MODEL, **positions: f
     """Zones (8, 8) of a sensor at the origin that show the robot if all read `depth` metres."""
     ranges = np.full((1, 8, 8), depth)
     poses = robot.link_poses(positions)
-    return SelfFilter(robot).shows_robot(ranges, model.directions[None], SENSOR, poses)[0]
+    return SelfFilter(robot, model.directions[None]).shows_robot(ranges, SENSOR, poses)[0]
 
 
 @pytest.fixture(scope="module")
@@ -40,10 +40,10 @@ def test_at_the_body_and_behind_it_is_body_and_in_front_is_not(wall, depth, is_b
 def test_a_radial_reading_is_compared_along_the_ray(wall):
     radial = SensorModel(distance="radial")
     at_the_wall = np.linalg.norm(MODEL.directions, axis=-1)
-    robot_filter, poses = SelfFilter(wall), wall.link_poses({})
+    robot_filter, poses = SelfFilter(wall, radial.directions[None]), wall.link_poses({})
     for factor, is_body in ((0.9, False), (1.0, True)):
         ranges = factor * at_the_wall[None]
-        found = robot_filter.shows_robot(ranges, radial.directions[None], SENSOR, poses)
+        found = robot_filter.shows_robot(ranges, SENSOR, poses)
         assert (found == is_body).all()
 
 
@@ -111,22 +111,22 @@ def test_the_panda_sees_itself_and_keeps_what_is_in_front_of_it():
     robot, directions, T, depth = panda_view()
     body = np.isfinite(depth)
     assert 20 < body.sum() < 24 * 64 / 2, "some zones see the arm, most look past it"
-    robot_filter, poses = SelfFilter(robot), robot.link_poses(READY)
+    robot_filter, poses = SelfFilter(robot, directions), robot.link_poses(READY)
 
     own = np.where(body, depth, np.nan)
-    assert robot_filter.shows_robot(own, directions, T, poses)[body].all()
+    assert robot_filter.shows_robot(own, T, poses)[body].all()
 
     # Half-way to the body, and far enough from it that no margin is touched: an object.
     clear = body & (depth > 0.3)
     assert clear.any()
     in_front = np.where(clear, 0.5 * depth, np.nan)
-    assert not robot_filter.shows_robot(in_front, directions, T, poses)[clear].any()
+    assert not robot_filter.shows_robot(in_front, T, poses)[clear].any()
 
 
 def test_most_of_the_pandas_zones_are_free():
     robot, directions, T, _ = panda_view()
-    far = SelfFilter(robot).shows_robot(
-        np.full((24, 8, 8), 3.9), directions, T, robot.link_poses(READY)
+    far = SelfFilter(robot, directions).shows_robot(
+        np.full((24, 8, 8), 3.9), T, robot.link_poses(READY)
     )
     assert far.mean() < 0.4
     assert all(not sensor.all() for sensor in far), "no sensor is blind"
