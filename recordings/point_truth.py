@@ -31,8 +31,9 @@ class _FrameTruth:
         self.table = table
         self.points = np.stack([table[axis] for axis in ("x", "y", "z")], axis=-1)
         # A further row, which is also row -1, is that of points without truth.
-        velocity = [np.append(table[axis], np.nan) for axis in ("vx", "vy", "vz")]
-        self._velocity, self._object = np.stack(velocity, axis=-1), np.append(table["object"], -1)
+        velocity = np.stack([table[axis] for axis in ("vx", "vy", "vz")], axis=-1)
+        self._velocity = np.concatenate([velocity, np.full((1, 3), np.nan)])
+        self._object = np.concatenate([table["object"], [-1]])
         self._twists: dict[int, Twist | None] = {}
 
     def at(self, row: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -34,8 +34,9 @@ class SelfFilter:
             if can_be_seen(mesh)
         }
         self._margin = margin
-        corners = np.stack([directions + _zone_steps(directions, o) for o in _FOOTPRINT], axis=1)
         with np.errstate(over="ignore", invalid="ignore"):  # intrinsics may be any numbers
+            steps = [_zone_steps(directions, offset) for offset in _FOOTPRINT]
+            corners = np.stack([directions + step for step in steps], axis=1)
             self._lengths = np.linalg.norm(corners, axis=-1)
             # (S, 3, rays): all rays of a sensor are turned by one product of matrices.
             unit = np.moveaxis(corners / self._lengths[..., None], -1, 1)
