@@ -36,8 +36,7 @@ def measure() -> Iterator[Row]:
         with open_recording(path) as recording:
             surveys, opened = Surveys(Estimates()), _opened(path, recording)
             _survey(surveys, opened)
-            while not surveys.idle:  # until the rounds are kept, too
-                time.sleep(0.001)
+            _wait_until_idle(surveys)  # until the rounds are kept, too
             windows = windows_of(path)
             for name, values in _CHANGES.items():
                 yield _changed(surveys, opened, windows, name, values)
@@ -45,8 +44,11 @@ def measure() -> Iterator[Row]:
 
 def _from_the_file(path: Path) -> Row:
     def ours() -> None:
+        surveys = Surveys(Estimates())
         with open_recording(path) as recording:
-            _survey(Surveys(Estimates()), _opened(path, recording))
+            _survey(surveys, _opened(path, recording))
+            surveys.cancel("bench")
+            _wait_until_idle(surveys)
 
     def theirs() -> None:
         for window in windows_of(path):
@@ -87,3 +89,8 @@ def _survey(surveys: Surveys, opened: Opened) -> None:
 
     surveys.request("bench", opened, Parameters(), notify)
     complete.wait()
+
+
+def _wait_until_idle(surveys: Surveys) -> None:
+    while not surveys.idle:
+        time.sleep(0.001)
