@@ -47,8 +47,7 @@ class Workbench:
         choice: of the recordings that may be opened.
         tuning: parameters, initially.
         settings: of the drawing, initially.
-        surveys: of the open recording.
-        timeline: of the open recording.
+        surveys, timeline: of the open recording.
         tasks: in the background.
 
     Attributes:
@@ -120,8 +119,9 @@ class Workbench:
         parameters, comparison = self.tuning.parameters, self.tuning.comparison
         if self.clock.playing:
             now = time.monotonic()
-            self.frame = self.clock.advance(now)
-            self._ahead.follow(self.opened, self.clock, now, parameters)
+            due = self.clock.advance(now)
+            self.frame = self._ahead.frame_to_draw(self.opened, due, self.frame, parameters)
+            self._ahead.follow(self.opened, self.clock, now, self.frame, parameters)
         other = comparison.other if comparison else None
         try:
             self._drawing.draw(self.opened, self.frame, parameters, comparison)
