@@ -21,7 +21,7 @@ from estimator import Parameters, current_engine
 
 _CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
 _AT_ONCE = 4 * _CORES  # pairs between two looks for foreground work, while there is none
-_MOST_FRAMES = 2**17  # of all cached surveys together, some 350 bytes each
+_MOST_FRAMES = 2**16  # of all cached surveys together, some 350 bytes each
 _SHORT = 1000  # frames up to which what is known is filled in while a person waits
 _BLOCK = 32  # pairs whose rounds are kept together, while the estimates' caches hold them
 _KEPT = 4  # recordings, or settings of one, whose rounds are kept
