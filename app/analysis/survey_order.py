@@ -2,24 +2,26 @@
 
 _NEAR = 8
 _COARSE = 16
+_SHAPE = 128  # frames that show the shape of a plot
 
 
 def survey_order(size: int, near: int) -> list[int]:
     """Permutation of `range(size)`.
 
-    First the frame that a person looks at and its neighbours, then every 16th, so that a plot
-    shows its shape early, then those between.
+    First the frame that a person looks at and its neighbours; then, so that plots show their shape
+    early, some evenly spread frames of a long recording; then every 16th, and those between.
 
     Args:
         size: number of frames.
         near: the frame that is looked at.
     """
-
-    def step(k: int) -> int:
-        return min(k & -k, _COARSE) if k else _COARSE
+    spread = max(_COARSE, size // _SHAPE)
 
     def turn(k: int) -> tuple[int, int]:
-        distance = abs(k - near)
-        return (-_COARSE - 1, distance) if distance <= _NEAR else (-step(k), k)
+        if abs(k - near) <= _NEAR:
+            return 0, abs(k - near)
+        if k % spread == 0:
+            return 1, k
+        return 2 + _COARSE - min(k & -k, _COARSE), k
 
     return sorted(range(size), key=turn)
