@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import pytest
 
 from app.analysis.survey_order import survey_order
@@ -22,5 +24,5 @@ def test_of_a_long_recording_some_frames_are_spread_over_all_of_it_first():
     order = survey_order(54_000, 100)
     spread = order[17 : 17 + 128]
     assert spread == sorted(spread)
-    assert max(b - a for a, b in zip(spread, spread[1:], strict=False)) < 54_000 / 100
+    assert max(b - a for a, b in pairwise(spread)) < 54_000 / 100
     assert order[17 + 129 + 10] < 16 * 200  # then from the start
