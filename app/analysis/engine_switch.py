@@ -67,8 +67,10 @@ class EngineSwitch:
         """End a compilation that is running."""
         with self._lock:
             self._closed = True
-            if self._process is not None:
-                self._process.terminate()
+            process = self._process
+        if process is not None:
+            process.terminate()
+            process.wait()
 
     def _run(self) -> None:
         said = COMPILED_NOW
@@ -77,9 +79,9 @@ class EngineSwitch:
         except Exception:
             _LOG.exception("The engine could not be compiled; the reference goes on.")
             said = NOT_COMPILED
+        compiled_now, self.compiling = self.compiling, False
         if not self._closed:
-            self._tell(said if self.compiling or said is NOT_COMPILED else "")
-        self.compiling = False
+            self._tell(said if compiled_now or said is NOT_COMPILED else "")
 
     def _tell(self, said: str) -> None:
         with self._lock:
@@ -91,8 +93,12 @@ class EngineSwitch:
         with self._lock:
             if self._closed:
                 return
-            self._process = subprocess.Popen([sys.executable, "-m", "estimator.engine.readiness"])
-        self._process.wait()
+            command = [sys.executable, "-m", "estimator.engine.readiness"]
+            # Ctrl-C at the terminal is for this process, which then ends that one.
+            self._process = subprocess.Popen(command, start_new_session=True)
+        code = self._process.wait()
+        if code != 0 and not self._closed:
+            raise RuntimeError(f"The process that compiles it has ended with {code}.")
 
     def _load(self) -> None:
         from estimator.engine.compiled import cache_folder

@@ -81,7 +81,10 @@ class TrueMotions:
                 try:
                     ended = self._read_on(request)
                 except Exception:
-                    _LOG.exception("%s: its truth cannot be read", request.opened.recording.name)
+                    if request.wanted:  # else its file may have been closed meanwhile
+                        _LOG.exception(
+                            "%s: its truth cannot be read", request.opened.recording.name
+                        )
                     ended = True
                 if ended:
                     with self._changed:

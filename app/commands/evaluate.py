@@ -102,7 +102,12 @@ def run(options: argparse.Namespace) -> int:
     for mean in means:
         print(table.line(f"mean of {mean['scenario']}", _cells(mean)))
     if options.json:
-        table_of_all = {"parameters": to_nested(parameters), "recordings": rows, "means": means}
+        table_of_all = {
+            "parameters": to_nested(parameters),
+            "engine": options.engine,
+            "recordings": rows,
+            "means": means,
+        }
         write(options.json, (json.dumps(table_of_all, indent=2) + "\n").encode())
     return 0 if any(row["pairs"] is not None for row in rows) else 1
 

@@ -48,7 +48,7 @@ Links = dict[str, tuple[Part, ...]]
 def kept_parts(robot: Robot) -> Links | None:
     """The parts of a robot's visual meshes as they were kept, None where they were not."""
     path = _path(robot)
-    if path is None or not path.exists():
+    if path is None:
         return None
     try:
         with np.load(path, allow_pickle=False) as file:
@@ -56,6 +56,8 @@ def kept_parts(robot: Robot) -> Links | None:
             return {
                 link: tuple(_part(file, *part) for part in parts) for link, parts in about.items()
             }
+    except FileNotFoundError:
+        return None
     except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
         _LOG.debug("%s cannot be read; the shape is made again.", path, exc_info=True)
         return None

@@ -1,6 +1,7 @@
 """Whether the compiled code is there, and how it comes to be there."""
 
 import platform
+from contextlib import suppress
 from pathlib import Path
 
 import llvmlite.binding
@@ -13,14 +14,17 @@ from estimator.engines import COMPILED, warm_up
 def is_compiled() -> bool:
     """Whether all code was compiled on a processor of this kind before."""
     marker = _marker()
-    return marker is not None and marker.exists()
+    with suppress(OSError):
+        return marker is not None and marker.exists()
+    return False
 
 
 def compile_all() -> None:
     """Compile what is not there yet, in some 20 s, and load the rest, in half a second."""
     warm_up(COMPILED)
     if marker := _marker():
-        marker.touch()
+        with suppress(OSError):  # a full disk; it is compiled again next time
+            marker.touch()
 
 
 def _marker() -> Path | None:

@@ -3,6 +3,7 @@
 import argparse
 import sys
 
+from app.commands.signals import ending_at_once
 from estimator import ENGINES, use_engine
 
 
@@ -30,4 +31,6 @@ def choose_engine(name: str) -> None:
 
     if not is_compiled():
         print("Compiling the estimator, once, in about half a minute.", file=sys.stderr)
-    compile_all()
+    # The compiler would swallow a KeyboardInterrupt.
+    with ending_at_once():
+        compile_all()

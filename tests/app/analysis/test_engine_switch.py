@@ -51,7 +51,8 @@ class Readiness:
     def load(self) -> None:
         self.loaded += 1
 
-    def start(self, command: list[str]) -> FakeProcess:
+    def start(self, command: list[str], *, start_new_session: bool) -> FakeProcess:
+        assert start_new_session  # or Ctrl-C would reach it, too
         self.started.append(command)
         return self.process
 

@@ -107,5 +107,22 @@ def test_where_no_cache_can_be_written_shapes_are_made(tmp_path, monkeypatch, ma
     assert len(made) == 2
 
 
+def test_a_folder_that_may_not_be_looked_into_is_no_hindrance(tmp_path, monkeypatch, made):
+    def refused(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(kept_shapes.np, "load", refused)
+    monkeypatch.setattr(Path, "stat", refused)
+    monkeypatch.setattr(Path, "mkdir", refused)
+    box = shapes.trimesh.creation.box()
+    monkeypatch.setattr(kept_shapes, "_path", lambda _: tmp_path / "kept.npz")
+
+    class Bare:
+        visual_meshes, mesh_warnings, visual_digest = {"base": box}, [], "x"
+
+    assert shapes._robot_shape.__wrapped__(Bare()).links["base"]
+    assert made
+
+
 def test_what_the_kept_parts_depend_on_has_a_version():
     assert kept_shapes._path(load_robot()) == kept_shapes._path(load_robot())
