@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +66,7 @@ class KeptRounds:
         self._lock = threading.Lock()
         self._facts = Survey(recording, parameters)
         self._pairs: dict[int, _Kept] = {}
+        self._left_out: set[int] = set()
         self._joined: tuple[NDArray[np.intp], _Kept] | None = None
 
     def __len__(self) -> int:
@@ -72,7 +74,20 @@ class KeptRounds:
 
     def wants(self, k: int) -> bool:
         """Whether the rounds of a frame's pair are missing, and there is room for them."""
-        return k not in self._pairs and len(self._pairs) < MOST
+        known = k in self._pairs or k in self._left_out
+        return not known and len(self._pairs) < MOST
+
+    def missing(self) -> list[int]:
+        """Frames whose rounds are wanted, no more than there is room for."""
+        room = MOST - len(self._pairs)
+        if room <= 0:
+            return []
+        frames = range(self._facts.parameters.n, len(self._facts))
+        return list(islice((k for k in frames if self.wants(k)), room))
+
+    def leave_out(self, k: int) -> None:
+        """Want the rounds of a broken frame's pair no more."""
+        self._left_out.add(k)
 
     def put(self, pair: Pair, clusters: Sequence[ClusterResult], survey: Survey) -> None:
         """Keep the rounds of an estimated pair.

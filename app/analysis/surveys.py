@@ -17,7 +17,7 @@ from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.analysis.survey_order import survey_order
 from app.errors import UserError
-from estimator import Parameters, current_engine
+from estimator import Engine, Parameters, current_engine
 
 _CORES = os.cpu_count() or 1  # the compiled engine works without the interpreter's lock
 _AT_ONCE = 4 * _CORES  # pairs between two looks for foreground work, while there is none
@@ -41,6 +41,7 @@ class _Request:
         wanted: no more notifications once this is false.
         filled: whether what is known without an estimate was filled in.
         unkept: frames whose rounds are to be kept next.
+        searched: whether frames whose rounds are missing were searched for.
     """
 
     opened: Opened
@@ -53,7 +54,14 @@ class _Request:
     notified: float = field(default=float("-inf"))
     failed: bool = False
     unkept: list[int] = field(default_factory=list[int])
+    searched: bool = False
+    engine: Engine = field(default_factory=current_engine)
     _order: Iterator[int] | None = None
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether it is wanted, and estimates are still made by the engine of its survey."""
+        return self.wanted and self.engine is current_engine()
 
     def next_frames(self, most: int) -> list[int]:
         """Next frames to compute, at most so many; none once all are done."""
@@ -108,7 +116,8 @@ class Surveys:
         request = _Request(opened, parameters, survey, notify, near)
         if len(survey) <= _SHORT:
             self._fill_from_known(request)
-        if survey.complete:
+        kept = self._kept_rounds(opened, parameters)
+        if survey.complete and (kept is None or not kept.missing()):
             return survey
         with self._changed:
             self._requests[owner] = request
@@ -147,7 +156,7 @@ class Surveys:
                 foreground = self._estimates.foreground
                 quiet = foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
                 try:
-                    if request.wanted and self._advance(request, _AT_ONCE if quiet else 1):
+                    if not request.goes_on or self._advance(request, _AT_ONCE if quiet else 1):
                         self._finish(owner, request)
                 except Exception:
                     if request.wanted:  # else its recording may have been closed meanwhile
@@ -190,15 +199,19 @@ class Surveys:
             if kept is not None:
                 request.unkept += [k for k in frames if kept.wants(k)]
         elif kept is not None:
+            if not (request.unkept or request.searched):
+                # Of pairs that were known before, as by playing, no rounds are kept yet.
+                request.searched, request.unkept = True, kept.missing()
             self._keep(request, kept, most)
-        return not (request.wanted and (frames or request.unkept))
+        left = frames or request.unkept or (kept is not None and not request.searched)
+        return not (request.goes_on and left)
 
     def _fill(self, request: _Request, frames: list[int]) -> None:
         survey = request.survey
         for k, pair in zip(
             frames, self._pool.map(lambda k: self._pair(request, k), frames), strict=True
         ):
-            if not request.wanted:
+            if not request.goes_on:
                 return  # its recording may have been closed meanwhile
             survey.put(k, pair)
         self._tell(request)
@@ -215,8 +228,13 @@ class Surveys:
 
         def keep(k: int) -> None:
             pair = self._pair(request, k)
-            if pair is not None and pair.flow is not None and request.wanted:
-                clusters = self._estimates.all_rounds(request.opened, k, request.parameters)
+            if not request.goes_on:
+                return
+            if pair is None or pair.flow is None:
+                kept.leave_out(k)
+                return
+            clusters = self._estimates.all_rounds(request.opened, k, request.parameters)
+            if request.goes_on:
                 kept.put(pair, clusters, request.survey)
 
         list(self._pool.map(keep, frames))

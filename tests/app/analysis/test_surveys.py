@@ -10,10 +10,12 @@ import app.analysis.pair_estimator
 from app.analysis.estimates import Estimates
 from app.analysis.survey import Survey
 from app.analysis.surveys import Surveys
-from estimator import Parameters
+from estimator import Parameters, use_engine
+from estimator.engines import COMPILED, REFERENCE
 from recordings import RecordingError
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
 from tests.app.waiting import until
+from tests.estimator.engines import using
 
 CORES = os.cpu_count() or 1
 
@@ -79,6 +81,31 @@ def test_other_thresholds_are_answered_from_the_rounds_at_once(runs, change):
     assert len(runs) == FRAMES - 8
     expected = 0 if change == {"delta": 0.1} else 100
     assert (survey.moving[8:] == expected).all()
+
+
+def test_rounds_of_what_was_played_are_kept_too(runs):
+    estimates, opened = Estimates(), fake_opened()
+    for k in range(8, FRAMES):
+        estimates.estimated(opened, k, Parameters())
+    surveys = Surveys(estimates)
+    assert surveys.request("me", opened, Parameters(), lambda _: None).complete
+    until(lambda: surveys.idle)
+    assert surveys.request("me", opened, Parameters(gamma=0.3), lambda _: None).complete
+    assert surveys.idle
+    assert len(runs) == FRAMES - 8
+
+
+def test_a_survey_of_one_engine_is_not_filled_by_another():
+    estimates = Estimates()
+    surveys, opened = Surveys(estimates), fake_opened()
+    with using(REFERENCE):
+        with estimates.foreground:
+            survey = surveys.request("me", opened, Parameters(), lambda _: None)
+        use_engine(COMPILED)
+        until(lambda: surveys.idle)
+    assert not survey.done[20:].all()
+    assert not surveys.request("me", opened, Parameters(), lambda _: None).done[20:].any()
+    surveys.cancel("me")
 
 
 def test_another_method_or_n_is_estimated(runs):
@@ -219,6 +246,9 @@ def test_a_broken_frame_is_a_gap():
     until(lambda: listener.complete)
     gaps = np.flatnonzero(np.isnan(listener.told[-1][1].moving))
     assert gaps.tolist() == [*range(8), 25, 33]
+    until(lambda: surveys.idle)
+    assert surveys.request("me", fake_opened(fake), Parameters(), listener).complete
+    assert surveys.idle  # the broken ones are not tried again
 
 
 def test_a_recording_that_was_closed_leaves_no_gap_behind():
