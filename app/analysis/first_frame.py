@@ -10,7 +10,7 @@ import numpy as np
 from app.analysis.estimates import Estimates
 from app.analysis.evaluation import counting_pairs
 from app.analysis.library import Opened
-from app.analysis.pairs import moves
+from app.analysis.pairs import counts
 from app.analysis.timeline import is_long
 from app.errors import UserError
 from estimator import Parameters
@@ -63,7 +63,7 @@ def candidates(recording: Recording, n: int) -> Iterator[int]:
     if not is_long(recording):
         yield from _middle_first([k for _, k in counting_pairs(recording, n)] or every, _TRIED)
         return
-    found = (k for k in _middle_first(every, _PROBES) if _counts(recording, n, k))
+    found = (k for k in _middle_first(every, _PROBES) if k >= n and counts(recording, k - n, k))
     first = next(found, None)
     if first is None:
         yield from _middle_first(every, _TRIED)
@@ -77,8 +77,3 @@ def _middle_first(frames: Sequence[int], most: int) -> list[int]:
     middle = len(frames) // 2
     near_first = sorted({middle, *spread.tolist()}, key=lambda i: abs(i - middle))
     return [frames[i] for i in near_first[:most]]
-
-
-def _counts(recording: Recording, n: int, k: int) -> bool:
-    """Whether the object truly moves at both frames of a pair."""
-    return k >= n and moves(recording, k) and moves(recording, k - n)

@@ -155,7 +155,7 @@ def make_pair(recording: Recording, k: int, parameters: Parameters, load: LoadCl
         truth=recording.pair_truth(source_k, k, parameters.max_range),
         n=parameters.n,
         object_poses=object_poses,
-        counts=moves(recording, source_k) and moves(recording, k),
+        counts=counts(recording, source_k, k),
     )
 
 
@@ -163,6 +163,11 @@ def moves(recording: Recording, k: int) -> bool:
     """Whether the object truly moves at frame `k`."""
     velocity = recording.truth(k)
     return velocity is not None and float(np.linalg.norm(velocity)) > MOVING_SPEED
+
+
+def counts(recording: Recording, source_k: int, k: int) -> bool:
+    """Whether a pair counts in the means: the object truly moves at both frames."""
+    return moves(recording, k) and moves(recording, source_k)
 
 
 def window_of(pair: Pair, recording: Recording, load: LoadCloud, stages: Stages) -> Window | None:

@@ -2,7 +2,6 @@
 
 import logging
 import os
-import threading
 import time
 from collections.abc import Callable, Hashable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -16,6 +15,7 @@ from app.analysis.library import Opened
 from app.analysis.pairs import Pair
 from app.analysis.survey import Survey
 from app.analysis.survey_order import survey_order
+from app.analysis.turns import Turns
 from app.errors import UserError
 from estimator import Engine, Parameters, current_engine
 
@@ -82,9 +82,10 @@ class Surveys:
         self._estimates = estimates
         self._surveys: Cache[tuple, Survey] = Cache(size, len, _MOST_FRAMES)
         self._kept: Cache[tuple, KeptRounds] = Cache(_KEPT, len, _MOST_FRAMES)
-        self._changed = threading.Condition()
-        self._requests: dict[Hashable, _Request] = {}
-        self._thread: threading.Thread | None = None
+        # Not a daemon: it must not be cut off inside of Open3D when the program ends.
+        self._turns: Turns[_Request] = Turns(
+            "surveys", self._step, lambda _: "A survey could not go on.", daemon=False
+        )
         self._pool = ThreadPoolExecutor(_CORES, thread_name_prefix="survey")
 
     def request(
@@ -119,18 +120,13 @@ class Surveys:
         kept = self._kept_rounds(opened, parameters)
         if survey.complete and (kept is None or not kept.missing()):
             return survey
-        with self._changed:
-            self._requests[owner] = request
-            if self._thread is None:
-                # Not a daemon: it must not be cut off inside of Open3D when the program ends.
-                self._thread = threading.Thread(target=self._run, name="surveys")
-                self._thread.start()
+        self._turns.add(owner, request)
         return survey
 
     @property
     def idle(self) -> bool:
         """Whether nothing is left to do."""
-        return self._thread is None
+        return self._turns.idle
 
     def known(self, opened: Opened, parameters: Parameters) -> Survey | None:
         """The survey as far as it is filled, None if it is not cached."""
@@ -138,35 +134,12 @@ class Surveys:
 
     def cancel(self, owner: Hashable) -> None:
         """Cancel the owner's request."""
-        with self._changed:
-            self._withdraw(owner)
+        self._turns.cancel(owner)
 
-    def _withdraw(self, owner: Hashable) -> None:
-        if request := self._requests.pop(owner, None):
-            request.wanted = False
-
-    def _run(self) -> None:
-        while True:
-            with self._changed:
-                if not self._requests:
-                    self._thread = None  # the next request starts another
-                    return
-                turn = list(self._requests.items())
-            for owner, request in turn:
-                foreground = self._estimates.foreground
-                quiet = foreground.wait_until_quiet(_QUIET, _PATIENCE / len(turn))
-                try:
-                    if not request.goes_on or self._advance(request, _AT_ONCE if quiet else 1):
-                        self._finish(owner, request)
-                except Exception:
-                    if request.wanted:  # else its recording may have been closed meanwhile
-                        _LOG.exception("A survey could not go on.")
-                    self._finish(owner, request)
-
-    def _finish(self, owner: Hashable, request: _Request) -> None:
-        with self._changed:
-            if self._requests.get(owner) is request:
-                del self._requests[owner]
+    def _step(self, request: _Request, among: int) -> bool:
+        """Go on with a request once nobody waits, and return whether it is finished."""
+        quiet = self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE / among)
+        return not request.goes_on or self._advance(request, _AT_ONCE if quiet else 1)
 
     def _fill_from_known(self, request: _Request) -> None:
         """Fill in what is known without an estimate."""

@@ -1,7 +1,5 @@
 """True motion of long recordings, read in a background thread."""
 
-import logging
-import threading
 import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
@@ -9,9 +7,9 @@ from dataclasses import dataclass
 from app.analysis.estimates import Estimates
 from app.analysis.library import Opened
 from app.analysis.pairs import moves
+from app.analysis.turns import Turns
 from app.errors import UserError
 
-_LOG = logging.getLogger(__name__)
 _QUIET = 0.1  # seconds without foreground work before the next piece
 _PATIENCE = 0.5  # seconds after which it is read in any case, since playing never pauses
 _PIECE = 0.02  # seconds that a piece takes, during which sliders share the interpreter with it
@@ -37,9 +35,17 @@ class TrueMotions:
 
     def __init__(self, estimates: Estimates) -> None:
         self._estimates = estimates
-        self._changed = threading.Lock()
-        self._requests: dict[Hashable, _Request] = {}
-        self._thread: threading.Thread | None = None
+        self._turns: Turns[_Request] = Turns(
+            "truth",
+            self._step,
+            lambda request: f"{request.opened.recording.name}: its truth cannot be read",
+            daemon=True,
+        )
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing is left to do."""
+        return self._turns.idle
 
     def request(self, owner: Hashable, opened: Opened, notify: Callable[[], None]) -> None:
         """Have a recording's true motion read, in place of the owner's earlier request.
@@ -50,46 +56,19 @@ class TrueMotions:
             notify: called by the background thread, repeatedly and when all is read; must not
                 block.
         """
-        timeline = self._estimates.recorded_timeline(opened)
-        with self._changed:
-            self._withdraw(owner)
-            if timeline.complete:
-                return
-            self._requests[owner] = _Request(opened, notify)
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name="truth", daemon=True)
-                self._thread.start()
+        self.cancel(owner)
+        if not self._estimates.recorded_timeline(opened).complete:
+            self._turns.add(owner, _Request(opened, notify))
 
     def cancel(self, owner: Hashable) -> None:
         """Cancel the owner's request; its recording may then be closed."""
-        with self._changed:
-            self._withdraw(owner)
+        self._turns.cancel(owner)
 
-    def _withdraw(self, owner: Hashable) -> None:
-        if request := self._requests.pop(owner, None):
-            request.wanted = False
-
-    def _run(self) -> None:
-        while True:
-            with self._changed:
-                if not self._requests:
-                    self._thread = None  # the next request starts another
-                    return
-                turn = list(self._requests.items())
-            for owner, request in turn:
-                self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
-                try:
-                    ended = self._read_on(request)
-                except Exception:
-                    if request.wanted:  # else its file may have been closed meanwhile
-                        _LOG.exception(
-                            "%s: its truth cannot be read", request.opened.recording.name
-                        )
-                    ended = True
-                if ended:
-                    with self._changed:
-                        if self._requests.get(owner) is request:
-                            del self._requests[owner]
+    def _step(self, request: _Request, among: int) -> bool:
+        """Read on once nobody waits, and return whether the request is finished."""
+        del among
+        self._estimates.foreground.wait_until_quiet(_QUIET, _PATIENCE)
+        return self._read_on(request)
 
     def _read_on(self, request: _Request) -> bool:
         """Read a piece, and return whether the request is finished."""
@@ -100,7 +79,7 @@ class TrueMotions:
             moving.append(_moves(request.opened, k))
             if time.monotonic() > end:
                 break
-        with self._changed:
+        with self._turns.changed:
             if not request.wanted:
                 return True  # a file that was closed meanwhile says nothing of motion
             timeline.add(moving)

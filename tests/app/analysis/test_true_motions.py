@@ -111,7 +111,7 @@ def test_what_a_closed_file_says_is_not_kept():
     assert gate.waiting.wait(10)
     live.stop()
     gate.go_on.set()
-    until(lambda: motions._thread is None)
+    until(lambda: motions.idle)
     assert estimates.recorded_timeline(gate.opened).read == 50
     assert max(gate.asked) == 50
     read(estimates, motions, gate.opened)  # opened again, it goes on from there
@@ -127,7 +127,7 @@ def test_two_sessions_have_it_read_once_and_one_may_leave():
     motions.cancel("me")
     gate.go_on.set()
     assert told.wait(10)
-    until(lambda: motions._thread is None)
+    until(lambda: motions.idle)
     assert estimates.recorded_timeline(gate.opened).complete
     assert sorted({*gate.asked}) == list(range(FRAMES))
     assert len(gate.asked) <= FRAMES + 1  # the piece that was read for the one who left
@@ -166,7 +166,7 @@ def test_a_failure_ends_the_reading_and_is_logged(caplog: pytest.LogCaptureFixtu
     gate.opened.recording.truth = failing  # type: ignore[method-assign]
     motions = TrueMotions(estimates)
     motions.request("me", gate.opened, lambda: None)
-    until(lambda: motions._thread is None)
+    until(lambda: motions.idle)
     assert "its truth cannot be read" in caplog.text
     assert estimates.recorded_timeline(gate.opened).read == 0
 

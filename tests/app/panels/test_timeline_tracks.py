@@ -14,6 +14,7 @@ from app.scene.colours import css
 from app.scene.palettes import PALETTES
 from app.session.clock import Playback
 from app.session.marks import Mark
+from app.session.snapshot import Snapshot
 from estimator import METRIC_INFO, Parameters
 from tests.app.fake_recordings import FRAMES, fake_opened, fake_recording
 from tests.app.fake_session import context, snapshot
@@ -79,13 +80,18 @@ def test_motion_gaps_and_empty_frames_have_the_colours_of_the_scene(client):
     }
 
 
-def test_the_quantity_is_what_the_survey_knows_of_it(client):
+def with_a_survey(client) -> tuple[TimelinePanel, Snapshot]:
+    """A panel that shows a recording, and the state with frame 20 surveyed."""
     opened, parameters = fake_opened(), Parameters()
     survey = Survey(opened.recording, parameters)
     survey.put(20, Estimates().estimated(opened, 20, parameters))
     panel = TimelinePanel(context(client))
     panel.open(opened)
-    now = snapshot(opened=opened, survey=survey, survey_revision=1)
+    return panel, snapshot(opened=opened, survey=survey, survey_revision=1)
+
+
+def test_the_quantity_is_what_the_survey_knows_of_it(client):
+    panel, now = with_a_survey(client)
     for name, value, unit, top in (
         ("moving", 100.0, "", 100.0),
         ("speed", 0.15, "m/s", 0.15),
@@ -102,15 +108,11 @@ def test_the_quantity_is_what_the_survey_knows_of_it(client):
 
 
 def test_of_a_survey_that_goes_on_only_new_numbers_are_sent(client):
-    opened, parameters = fake_opened(), Parameters()
-    survey = Survey(opened.recording, parameters)
-    survey.put(20, Estimates().estimated(opened, 20, parameters))
-    panel = TimelinePanel(context(client))
-    panel.open(opened)
-    now = snapshot(opened=opened, survey=survey, survey_revision=1)
+    panel, now = with_a_survey(client)
     panel.show(now)
     client.take_sent()
-    survey.put(21, Estimates().estimated(opened, 21, parameters))
+    assert now.survey is not None
+    now.survey.put(21, Estimates().estimated(now.opened, 21, now.survey.parameters))
     panel.show(replace(now, survey_revision=2))
     assert [*shown_numbers(client)] == [13, 21]
     assert client.called("timeline.forget") == []

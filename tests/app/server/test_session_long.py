@@ -100,7 +100,7 @@ def test_another_recording_ends_the_reading(session, client, truth):
     client.choose("b")
     until(lambda: client.recording() == "b" and events(client)["unread"] == 0)
     truth.go_on.set()
-    until(lambda: session._shared.motions._thread is None)
+    until(lambda: session._shared.motions.idle)
     client.choose("a")
     until(lambda: client.recording() == "a")
     until(lambda: frames_of(events(client)["moving"])[-1] == 289)
