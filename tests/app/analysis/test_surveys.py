@@ -106,6 +106,7 @@ def test_a_survey_of_one_engine_is_not_filled_by_another():
     assert not survey.done[20:].all()
     assert not surveys.request("me", opened, Parameters(), lambda _: None).done[20:].any()
     surveys.cancel("me")
+    until(lambda: surveys.idle)  # its last pairs are no other test's
 
 
 def test_another_method_or_n_is_estimated(runs):
